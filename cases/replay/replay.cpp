@@ -48,9 +48,6 @@ constexpr const char* k_fed_until = "fed_until_s";  // in a replay's names::repl
 /// Replays have other seeds than the repeats of a sweep, which count up from the study's.
 constexpr std::int64_t k_first_seed = 1000;
 
-/// Releases are spread over the passing of a blade; multiples of the golden ratio stay spread when more are added.
-constexpr double k_golden_ratio = 0.6180339887498949;
-
 /// Remedy for what a folder of replays holds.
 std::string other_folder(const fs::path& folder) {
     return fmt::format("Name a new folder with -o, or in a sweep move {} away", folder.string());
@@ -157,8 +154,7 @@ ParameterValues values_of(const RecordedRun& run, int index) {
     ParameterValues values = run.values;
     values.remove("report.adv_points");  // a replay averages no water, and the file is relative to the study that names it
     if (index == 0) return values;
-    const double turned = index * k_golden_ratio - std::floor(index * k_golden_ratio);
-    vary_release(values, k_first_seed + index, turned / run.head.size.blades);
+    vary_release(values, k_first_seed + index, release_share(index) / run.head.size.blades);
     return values;
 }
 

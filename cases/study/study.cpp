@@ -581,10 +581,18 @@ double bank_azimuth_deg(const std::string& swing_direction, const std::string& r
     return swing_direction == "under_cut" ? rising : -rising;
 }
 
+double release_share(int index) {
+    constexpr double golden_ratio = 0.6180339887498949;
+    return index * golden_ratio - std::floor(index * golden_ratio);
+}
+
+double start_revolution(const ParameterValues& study, const ParameterValues& feed) {
+    return feed.has("feed.start_revolution") ? feed.number("feed.start_revolution") : study.number("run.flow_revolutions");
+}
+
 void vary_release(ParameterValues& values, std::int64_t seeds, double revolutions) {
     for (ParameterValues& feed : values.tables_for_writing("feed")) {
-        const double start =
-            feed.has("feed.start_revolution") ? feed.number("feed.start_revolution") : values.number("run.flow_revolutions");
+        const double start = start_revolution(values, feed);
         feed.set("feed.seed", feed.integer("feed.seed") + seeds);
         if (revolutions > 0.0) feed.set("feed.start_revolution", start + revolutions);
     }

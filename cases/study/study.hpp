@@ -141,6 +141,13 @@ struct Study {
     AxialCylinder water(const HeadSize& head) const;
 };
 
+/// Share of a blade's passing by which repeat or replay `index` of a study is released later; 0 of the study itself, index 0. It does not
+/// depend on how many there are: fractional parts of multiples of the golden ratio stay spread when more are added.
+double release_share(int index);
+
+/// Revolution of the rotor at which a feed of a study begins.
+double start_revolution(const ParameterValues& study, const ParameterValues& feed);
+
 /// Another placement of every feed, released later: `seeds` are added to the feeds' seeds, `revolutions` of the rotor to their starts.
 void vary_release(ParameterValues& values, std::int64_t seeds, double revolutions);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -23,6 +24,7 @@
 #include "cases/sweep/slurm.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
+#include "geometry/base/parameters/parameter_reading.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/process/stop_signals.hpp"
 #include "geometry/base/progress.hpp"
@@ -134,6 +136,83 @@ public:
 private:
     std::map<std::string, geometry::Head> heads_;
 };
+
+/// A point of a sweep before its repeat's seed and release are set.
+struct UnplacedPoint {
+    std::string setting;  ///< common part of the names of its repeats
+    std::string name;
+    fs::path cutter;
+    std::size_t keys = 0;  ///< as Combination::keys
+    int repeat = 0;        ///< as the study counts them, from 0 on
+    ParameterValues values;
+};
+
+std::vector<UnplacedPoint> unplaced_points(const fs::path& study, const SweepAxes& axes, const std::string& own_cutter,
+                                           const std::vector<KeySetting>& settings) {
+    std::vector<UnplacedPoint> points;
+    for (const Combination& combination : combinations_of(axes, settings.size())) {
+        if (combination.design && !fs::exists(*combination.design)) continue;
+        const KeySetting& keys = settings[combination.keys];
+        UnplacedPoint point;
+        point.setting = point.name = setting_name(combination, keys.name, study.stem().string());
+        point.cutter = combination.design.value_or((study.parent_path() / own_cutter).string());
+        point.keys = combination.keys;
+        point.repeat = axes.repeats.first + combination.repeat;
+        if (axes.repeats.are_numbered()) point.name += fmt::format("_repeat{}", point.repeat + 1);
+        point.values = values_of(combination, keys.values, point.setting, !axes.keys.empty());
+        points.push_back(std::move(point));
+    }
+    return points;
+}
+
+/// When the repeats of a sweep are released. Repeat n of a point is released later than the study by a share of a blade's passing that n
+/// alone makes, so that more repeats can be added. A sweep that was begun before 2026-11-30 keeps its releases: k/N of a passing for
+/// repeat k, from 0 on, of N.
+class Releases {
+public:
+    /// \param first  of the sweep's repeats
+    explicit Releases(int first) : first_(first) {}
+
+    /// Looks at a study that is there: by which rule its repeat is released. \param own  the study before its release is varied
+    void keep(const fs::path& file, const ParameterValues& own, int repeat, int blades) {
+        const ReadParameters begun = parse_with_mistakes(study_table(), read_file(file), file.string());
+        if (!begun.mistakes.empty() || begun.values.tables("feed").empty() || own.tables("feed").empty()) return;
+        const double start = begin_of(own), begun_at = begin_of(begun.values);
+        const double count = repeat > first_ ? std::round((repeat - first_) / (blades * (begun_at - start))) : 1.0;
+        if (!(count >= 1.0 && count <= k_most_repeats)) return;
+        const int n = static_cast<int>(count);
+        if (start + later_of(repeat, n, blades) == begun_at) counts_[repeat] = n;
+    }
+
+    /// [revolutions]
+    double later(int repeat, int blades) const {
+        const auto found = counts_.find(repeat);
+        return found == counts_.end() ? release_share(repeat) / blades : later_of(repeat, found->second, blades);
+    }
+
+private:
+    static constexpr double k_most_repeats = 100.0;
+
+    double later_of(int repeat, int count, int blades) const { return static_cast<double>(repeat - first_) / (count * blades); }
+    static double begin_of(const ParameterValues& study) { return start_revolution(study, study.tables("feed").front()); }
+
+    int first_;
+    std::map<int, int> counts_;  // repeats of a sweep of an earlier program, by repeat
+};
+
+Releases releases_of(const std::vector<UnplacedPoint>& points, int first, const fs::path& folder, Designs& designs) {
+    Releases releases(first);
+    for (const UnplacedPoint& point : points) {
+        const fs::path file = studies_folder(folder) / (point.name + ".toml");
+        if (!fs::exists(file)) continue;
+        try {
+            releases.keep(file, point.values, point.repeat, designs.head_of(point.values, point.cutter).symmetry.blade_count);
+        } catch (const UserError&) {
+            // A cutter that cannot be read is told with its points, a study that is no TOML with those that have changed.
+        }
+    }
+    return releases;
+}
 
 /// What is wrong with a design is wrong at each of its points.
 void add_once(const Mistake& mistake, std::vector<Mistake>& all) {
@@ -493,19 +572,13 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
     std::vector<SweepPoint> points;
     Designs designs;
     std::set<std::pair<std::string, std::size_t>> placed;
-    for (const Combination& combination : combinations_of(axes, settings.size())) {
-        if (combination.design && !fs::exists(*combination.design)) continue;
-        const fs::path cutter = combination.design.value_or((study.parent_path() / base.text("cutter.file")).string());
-        const KeySetting& keys = settings[combination.keys];
-        std::string name = setting_name(combination, keys.name, study.stem().string());
-        ParameterValues values = values_of(combination, keys.values, name, !axes.keys.empty());
-        const std::string first = fmt::format("{}_repeat{}", name, axes.repeats.first + 1);
-        const int repeat = axes.repeats.first + combination.repeat;
-        if (axes.repeats.are_numbered()) name += fmt::format("_repeat{}", repeat + 1);
+    const std::vector<UnplacedPoint> unplaced = unplaced_points(study, axes, base.text("cutter.file"), settings);
+    const Releases releases = releases_of(unplaced, axes.repeats.first, folder, designs);
+    for (const auto& [setting, name, cutter, keys, repeat, own] : unplaced) {
+        ParameterValues values = own;
         try {
             const geometry::Head& head = designs.head_of(values, cutter);
-            // Repeats are released at angles within one passing of a blade.
-            vary_release(values, repeat, static_cast<double>(combination.repeat) / (axes.repeats.count * head.symmetry.blade_count));
+            vary_release(values, repeat, releases.later(repeat, head.symmetry.blade_count));
             const ParameterValues placed_here = values;
             values.set("cutter.file", from_studies(cutter, folder));
             const auto beside_study = [&](const std::string& path) { return from_studies(study.parent_path() / path, folder); };
@@ -514,7 +587,7 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
             const std::string text = commented_toml(study_table(), &values);
             parse_parameters(study_table(), text, name);  // bounds of what the axes set
             points.push_back({name, text, cutter.lexically_normal().string() + shape_of(values, axes.keys),
-                              combination.repeat > 0 ? first : std::string()});
+                              repeat > axes.repeats.first ? fmt::format("{}_repeat{}", setting, axes.repeats.first + 1) : std::string()});
             const ParameterValues resolved = resolve_study(placed_here, head_size(head));
             std::vector<Mistake> wrong = check_file_rules(placed_here, name);
             for (const std::string& key : other_files(placed_here))
@@ -526,7 +599,7 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
                 add_once(mistake, mistakes);
             }
             // Speeds and discharges hardly move rock or bank: one placement of each design and setting of keys.
-            if (wrong.empty() && placed.emplace(cutter.string(), combination.keys).second) place_study(resolved, head, study.parent_path());
+            if (wrong.empty() && placed.emplace(cutter.string(), keys).second) place_study(resolved, head, study.parent_path());
         } catch (const UserError& error) {
             for (Mistake mistake : error.mistakes()) {
                 if (mistake.where.empty()) mistake.where = name;

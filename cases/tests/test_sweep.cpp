@@ -1,5 +1,6 @@
 #include "cases/sweep/sweep.hpp"
 
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <thread>
@@ -73,6 +74,22 @@ protected:
         return run_sweep(all, how, [this](const std::string& line) { lines_.push_back(line); });
     }
 
+    static double release_of(const ParameterValues& study) { return study.tables("feed")[0].number("feed.start_revolution"); }
+    double release_of(const SweepPoint& point) const { return release_of(parse_parameters(study_table(), point.text, point.name)); }
+
+    /// The points as programs until 2026-11-29 released them: repeat k of N, on six blades, k/N of a passing after the first revolution.
+    std::vector<SweepPoint> released_before(std::vector<SweepPoint> all, int count) const {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            ParameterValues values = parse_parameters(study_table(), all[i].text, all[i].name);
+            ParameterValues& feed = values.tables_for_writing("feed")[0];
+            feed.remove("feed.start_revolution");
+            if (const int k = static_cast<int>(i) % count; k > 0)
+                feed.set("feed.start_revolution", 1.0 + static_cast<double>(k) / (count * 6));
+            all[i].text = commented_toml(study_table(), &values);
+        }
+        return all;
+    }
+
     fs::path folder_;
     std::vector<std::string> lines_;
 };
@@ -107,9 +124,46 @@ TEST_F(Sweep, has_a_point_for_every_combination_and_pairs_repeats) {
     EXPECT_TRUE(fs::equivalent(folder_ / "sweep/studies" / first.text("cutter.file"), folder_ / "b.stl"));
     EXPECT_EQ(first.tables("feed")[0].integer("feed.seed"), 7);
     EXPECT_EQ(second.tables("feed")[0].integer("feed.seed"), 8);
-    // Six blades, two repeats: the second is released half a passing later.
+    // Six blades: the second is released by the golden ratio of a passing later.
     EXPECT_FALSE(first.tables("feed")[0].has("feed.start_revolution"));
-    EXPECT_NEAR(second.tables("feed")[0].number("feed.start_revolution"), 1.0 + 1.0 / 12.0, 1e-12);
+    EXPECT_NEAR(release_of(second), 1.0 + 0.5 * (std::sqrt(5.0) - 1.0) / 6.0, 1e-12);
+}
+
+TEST_F(Sweep, takes_more_repeats_when_it_is_gone_on_with) {
+    run(points({{20}, {}, {}, 3}), settings(k_runs));
+    const std::vector<SweepPoint> more = points({{20}, {}, {}, 5});
+    run(more, settings(k_runs, true));
+    EXPECT_EQ(read_file(folder_ / "sweep/20rpm_repeat3/ran"), "ran\nran\n");
+    EXPECT_EQ(read_file(folder_ / "sweep/20rpm_repeat5/ran"), "ran\n");
+    // Angles of release stay apart: by the golden ratio, five in a passing are never nearer than 0.14 of it.
+    for (std::size_t i = 1; i < more.size(); ++i)
+        for (std::size_t j = i + 1; j < more.size(); ++j) EXPECT_GT(std::abs(release_of(more[i]) - release_of(more[j])), 0.14 / 6.0);
+}
+
+TEST_F(Sweep, keeps_the_releases_of_a_sweep_of_an_earlier_program) {
+    const std::vector<SweepPoint> begun = released_before(points({{30}, {}, {}, 3}), 3);
+    run(begun, settings(k_runs));
+    const std::vector<SweepPoint> more = points({{20, 30}, {}, {}, 5});
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(more[5 + i].text, begun[i].text);
+    EXPECT_EQ(release_of(more[2]), release_of(begun[2])) << "the same repeat of a speed that is added is a pair with it";
+    EXPECT_NEAR(release_of(more[8]), 1.0 + release_share(3) / 6.0, 1e-12) << "repeats that are added are released as in a new sweep";
+    EXPECT_NO_THROW(run(more, settings(k_runs, true)));
+    write_file(folder_ / "study.toml", read_file(folder_ / "study.toml") + "density_kg_m3 = 2700\n");
+    EXPECT_THROW(run(points({{20, 30}, {}, {}, 5}), settings(k_runs, true)), UserError);
+}
+
+// A calibration's runs at its answer have numbers of their own, and angles that none before had.
+TEST_F(Sweep, releases_a_repeat_by_its_number_wherever_a_range_begins) {
+    const std::vector<SweepPoint> all = points({{20}, {}, {}, {5}}), last = points({{20}, {}, {}, {2, 3}});
+    ASSERT_EQ(last.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(last[i].name, all[3 + i].name);
+        EXPECT_EQ(last[i].text, all[3 + i].text);
+    }
+    const std::vector<SweepPoint> begun = released_before(last, 2);
+    for (const SweepPoint& point : begun) write_file(folder_ / "sweep/studies" / (point.name + ".toml"), point.text);
+    const std::vector<SweepPoint> gone_on = points({{20}, {}, {}, {2, 3}});
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(gone_on[i].text, begun[i].text) << "of an earlier program";
 }
 
 TEST_F(Sweep, varies_any_key_and_shares_the_mesh_where_the_key_leaves_it_as_it_is) {
