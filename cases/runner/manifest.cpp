@@ -8,6 +8,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/replaced_starts.hpp"
 #include "geometry/base/run_files.hpp"
 #include "postproc/run/solver_starts.hpp"
 
@@ -118,7 +119,8 @@ double run_core_s(const std::filesystem::path& run) {
     const Manifest manifest(run / names::manifest);
     const StageRecord* solver = manifest.find("run");
     const double noted = solver == nullptr ? 0.0 : solver->core_s;  // of the last attempt
-    return manifest.core_s() - noted + postproc::solver_core_seconds(run).value_or(noted);
+    const auto of_all_starts = postproc::solver_core_seconds(run);
+    return manifest.core_s() + (of_all_starts ? *of_all_starts - noted : replaced_core_seconds(run));
 }
 
 }  // namespace cutterflow::cases

@@ -15,6 +15,7 @@
 
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/replaced_starts.hpp"
 #include "geometry/base/run_files.hpp"
 
 namespace cutterflow::cases {
@@ -121,6 +122,8 @@ RunDirectory::RunDirectory(const fs::path& path) : path_(fs::absolute(path).lexi
 
 void remove_unfinished_run(const fs::path& directory) {
     std::vector<fs::path> left = processor_folders(directory);
+    const int ranks = std::max(1, static_cast<int>(left.size()));
+    for (const fs::path& start : time_folders(directory / "postProcessing/cost")) note_replaced_start(directory, start, ranks);
     for (const fs::path& folder : time_folders(directory))
         if (std::strtod(folder.filename().c_str(), nullptr) > 0.0) left.push_back(folder);
     for (const char* name : {"postProcessing", names::checkpoints})

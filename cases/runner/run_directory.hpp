@@ -62,7 +62,7 @@ private:
 };
 
 /// Removes the output of a run that was stopped before its first checkpoint: it cannot be resumed. Folders that a run does not
-/// write are the user's and stay.
+/// write are the user's and stay. What its starts took is noted (note_replaced_start).
 void remove_unfinished_run(const std::filesystem::path& directory);
 
 /// Regular files below a folder of the run directory, relative to `root`, sorted; empty when there is no such folder.

@@ -462,6 +462,10 @@ TEST_F(Calibrate, counts_what_interrupted_runs_took) {
     write_file(folder_ / "run/postProcessing/cost/0/cost.csv", "time_s,step_s\n0.1,4\n0.2,1\n");
     write_file(folder_ / "run/postProcessing/cost/0.2/cost.json", R"({"ranks": 1, "core_s": 3.0})");
     EXPECT_NEAR(run_core_s(folder_ / "run"), 2.0 + 5.0 + 3.0, 1e-12);
+    write_file(folder_ / "run/replaced_starts.csv", "start_s,core_s\n0.2,7\n0.2,4\n");
+    EXPECT_NEAR(run_core_s(folder_ / "run"), 2.0 + 5.0 + 3.0 + 11.0, 1e-12);
+    fs::remove(folder_ / "run/postProcessing/cost/0.2/cost.json");
+    EXPECT_NEAR(run_core_s(folder_ / "run"), 2.0 + 3.0 + 11.0, 1e-12) << "the last attempt's, while no start came to its end";
 }
 
 TEST_F(Calibrate, reports_all_mistakes_at_once) {

@@ -15,6 +15,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/process/child_process.hpp"
+#include "geometry/base/replaced_starts.hpp"
 
 using namespace cutterflow;
 using namespace cutterflow::cases;
@@ -259,6 +260,21 @@ TEST_F(Stages, a_run_that_begins_anew_keeps_the_users_folders) {
     remove_unfinished_run(folder_);
     for (const std::string& name : of_the_run) EXPECT_FALSE(fs::exists(folder_ / name)) << name;
     for (const std::string& name : of_others) EXPECT_TRUE(fs::exists(folder_ / name / "kept")) << name;
+}
+
+TEST_F(Stages, a_run_that_begins_anew_notes_what_it_took_before) {
+    const auto killed_after = [&](double step_s) {
+        for (const char* folder : {"processor0", "processor1", "processor2"}) fs::create_directories(folder_ / folder);
+        write_file(folder_ / "postProcessing/cost/0/cost.csv", fmt::format("time_s,step_s,fluid_s\n0.1,{0},1\n0.2,{0},1\n0.3,", step_s));
+    };
+    killed_after(2.0);
+    remove_unfinished_run(folder_);
+    EXPECT_FALSE(fs::exists(folder_ / "postProcessing"));
+    EXPECT_NEAR(replaced_core_seconds(folder_), 3 * 2 * 2.0, 1e-12);
+    killed_after(0.5);
+    remove_unfinished_run(folder_);
+    remove_unfinished_run(folder_);
+    EXPECT_NEAR(replaced_core_seconds(folder_), 3 * 2 * 2.5, 1e-12);
 }
 
 TEST_F(Stages, one_that_fails_notes_what_its_programs_took) {

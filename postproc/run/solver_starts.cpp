@@ -7,6 +7,7 @@
 
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
+#include "geometry/base/replaced_starts.hpp"
 #include "geometry/base/run_files.hpp"
 #include "postproc/run/run_table.hpp"
 
@@ -73,7 +74,7 @@ std::optional<double> solver_core_seconds(const fs::path& run) {
             wall_of_others += wall_seconds(start);
     }
     if (!ranks) return std::nullopt;
-    return told + wall_of_others * *ranks;
+    return told + wall_of_others * *ranks + replaced_core_seconds(run);
 }
 
 }  // namespace cutterflow::postproc

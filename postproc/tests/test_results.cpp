@@ -253,6 +253,8 @@ TEST(ResultsJson, core_time_is_the_processor_time_of_all_starts) {
     EXPECT_NEAR(document_of(run).at("cost").at("core_s").get<double>(), 390.0, 1e-9);
     fs::remove(cost / "0/cost.json");  // killed after 150 steps of 2 s on 2 ranks
     EXPECT_NEAR(document_of(run).at("cost").at("core_s").get<double>(), 600.0 + 90.0, 1e-9);
+    testing::write_text(run.directory / "replaced_starts.csv", "start_s,core_s\n1.5,42\n");
+    EXPECT_NEAR(document_of(run).at("cost").at("core_s").get<double>(), 600.0 + 90.0 + 42.0, 1e-9);
 }
 
 TEST(ResultsJson, predicted_cost_is_that_of_the_time_that_the_run_went_through) {

@@ -49,8 +49,8 @@ void require_feed_in_domain(const foam::CouplingDictionary& dictionary) {
 
 /// Of the rank that writes.
 std::unique_ptr<coupling::RunRecorder> make_recorder(const foam::FoamSession& session, const foam::CouplingDictionary& dictionary,
-                                                     const std::vector<coupling::ModelNote>& flow, double start) {
-    auto recorder = std::make_unique<coupling::CsvRecorder>(session.case_folder(), dictionary.coupling, start);
+                                                     const std::vector<coupling::ModelNote>& flow, double start, int ranks) {
+    auto recorder = std::make_unique<coupling::CsvRecorder>(session.case_folder(), dictionary.coupling, start, ranks);
     const auto versions = build_versions();
     std::vector<coupling::ModelNote> models = flow;
     const std::vector<coupling::ModelNote> rock = rock_models(dictionary);
@@ -79,7 +79,7 @@ void run_coupled(foam::FoamSession& session, foam::CouplingDictionary& dictionar
         dem = std::make_unique<liggghts::LiggghtsEngine>(*dictionary.dem, std::vector(moving.begin(), moving.end()), MPI_COMM_WORLD);
     }
     std::unique_ptr<coupling::RunRecorder> recorder = std::make_unique<coupling::SilentRecorder>();
-    if (communicator.rank() == 0) recorder = make_recorder(session, dictionary, flow, fluid.time());
+    if (communicator.rank() == 0) recorder = make_recorder(session, dictionary, flow, fluid.time(), communicator.size());
 
     coupling::CoupledRun coupled(dictionary.coupling, properties, fluid, dem.get(), communicator, *recorder, session.case_folder());
     const auto checkpoint = newest_checkpoint(session.case_folder());

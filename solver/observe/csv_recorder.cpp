@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/replaced_starts.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/axial_bins.hpp"
 #include "solver/observe/velocity/velocity_tables.hpp"
@@ -65,10 +66,12 @@ std::string vtp_of(const WallWork& work) {
 
 }  // namespace
 
-CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const CouplingSettings& settings, double start_time)
-    : root_(case_folder / "postProcessing"), settings_(settings), start_(time_name(start_time)) {}
+CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const CouplingSettings& settings, double start_time, int ranks)
+    : root_(case_folder / "postProcessing"), settings_(settings), start_(time_name(start_time)), ranks_(ranks) {}
 
 void CsvRecorder::begin() {
+    note_replaced_start(root_.parent_path(), folder("cost"), ranks_);
+    std::filesystem::remove(folder("cost") / "cost.json");  // it would say that this start has come to its end
     const std::string soil = settings_.soil ? ",soil_force_x_n,soil_force_y_n,soil_force_z_n" : "";
     loads_ = open("loads", "loads.csv", "time_s,rotor_angle_rad,torque_pressure_n_m,torque_viscous_n_m,torque_rock_n_m,power_w" + soil);
     balance_ = open(

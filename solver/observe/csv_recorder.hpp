@@ -14,13 +14,13 @@ namespace cutterflow::coupling {
 /// Writes rows immediately, into folders named by the start time of this (re)started run. For one rank only.
 class CsvRecorder final : public RunRecorder {
 public:
-    /// \param start_time  of the run [s]
-    CsvRecorder(const std::filesystem::path& case_folder, const CouplingSettings& settings, double start_time);
+    /// \param start_time  of the run [s] \param ranks  of the run, taken for those of a start that this one replaces
+    CsvRecorder(const std::filesystem::path& case_folder, const CouplingSettings& settings, double start_time, int ranks = 1);
 
     /// Further content of cost.json: the active sub-models, and versions by program.
     void describe(std::vector<ModelNote> models, std::map<std::string, std::string> versions);
 
-    /// Files of an earlier start at the same time are replaced. \throws NotWritten
+    /// Files of an earlier start at the same time are replaced; what it took is noted. \throws NotWritten
     void begin() override;
     void event(const RockEvent& event) override;
     void rejected(const RejectedRock& rock) override;
@@ -54,6 +54,7 @@ private:
     std::filesystem::path root_;
     CouplingSettings settings_;
     std::string start_;
+    int ranks_;
     std::ofstream events_, rejected_, account_, gates_, extractions_, contacts_, walls_, fates_, ledger_, outflow_, flux_, loads_, balance_,
         cost_, wall_work_, warnings_;
     std::map<double, std::string> pictures_;  // files of the rock series by time

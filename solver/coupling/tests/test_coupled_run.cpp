@@ -11,6 +11,7 @@
 
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/replaced_starts.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/coupled_run.hpp"
 #include "solver/coupling/coupling_methods.hpp"
@@ -1204,6 +1205,29 @@ TEST(CsvRecorder, leaves_pictures_that_it_replaces_out_of_the_series_at_once) {
     picture_at(resumed, 0.5);
     EXPECT_TRUE(has("rocks_0.5.vtp"));
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "postProcessing/rock/vtk/rocks_0.375.vtp"));
+}
+
+// Killed twice before a checkpoint; what 2 ranks took in two steps of 1.5 s counts once.
+TEST(CsvRecorder, notes_what_a_start_took_whose_tables_it_replaces) {
+    const TemporaryFolder folder;
+    const CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");
+    const auto cost = folder.path() / "postProcessing/cost/0.5";
+    {
+        CsvRecorder killed(folder.path(), settings, 0.5, 2);
+        killed.begin();
+        CostRow row;
+        row.step = 1.5;
+        killed.cost(row);
+        killed.cost(row);
+        killed.flush();
+    }
+    EXPECT_EQ(replaced_core_seconds(folder.path()), 0.0) << "its tables are there";
+    for (int starts = 0; starts < 2; ++starts) CsvRecorder(folder.path(), settings, 0.5, 2).begin();
+    EXPECT_NEAR(replaced_core_seconds(folder.path()), 2 * 2 * 1.5, 1e-12);
+    folder.write("postProcessing/cost/0.5/cost.json", R"({"core_s": 4.5})");
+    CsvRecorder(folder.path(), settings, 0.5, 2).begin();
+    EXPECT_NEAR(replaced_core_seconds(folder.path()), 2 * 2 * 1.5 + 4.5, 1e-12);
+    EXPECT_FALSE(std::filesystem::exists(cost / "cost.json")) << "this start has not come to its end";
 }
 
 TEST(CsvRecorder, keeps_the_warnings_of_a_start_that_is_killed) {
