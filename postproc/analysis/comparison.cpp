@@ -322,8 +322,18 @@ std::vector<Estimate> of_repeats(const Comparison& comparison, const ComparedSet
     return estimates;
 }
 
-Estimate of_setting(const std::vector<Estimate>& repeats, bool of_rock) {
-    if (repeats.size() == 1) return repeats.front();
+/// Where some repeats are known by bounds, those that are known better have their value as both: of three placements the hold-up of one may
+/// still change.
+std::vector<Estimate> with_bounds_where_some_have(std::vector<Estimate> repeats) {
+    if (values_of(repeats, &Estimate::low).empty()) return repeats;
+    for (Estimate& repeat : repeats)
+        if (!repeat.low) repeat.low = repeat.high = repeat.value;
+    return repeats;
+}
+
+Estimate of_setting(const std::vector<Estimate>& of_each, bool of_rock) {
+    if (of_each.size() == 1) return of_each.front();
+    const std::vector<Estimate> repeats = with_bounds_where_some_have(of_each);
     Estimate estimate{mean_when_all(repeats, &Estimate::value), mean_when_all(repeats, &Estimate::low),
                       mean_when_all(repeats, &Estimate::high), std::nullopt};
     if (!estimate.value) return estimate;

@@ -121,6 +121,32 @@ TEST(Comparison, of_fed_heads_has_shares_with_their_intervals_and_hold_up) {
         if (figure.plot.name == "spilled") EXPECT_EQ(figure.plot.x.title, "spilled, % of the fed mass");
 }
 
+/// A placement of its own of the fed head.
+fs::path fed_repeat(const std::string& name, double stuck, int seed) {
+    const fs::path directory = fed(name, stuck, 1.0);
+    const fs::path study = directory / names::resolved_study;
+    testing::write_text(study, testing::read_text(study) + fmt::format("seed = {}\n", seed));
+    return directory;
+}
+
+// 40 % are spilled where the hold-up is settled, 32 to 52 % where a fifth of the feed stays in the head.
+TEST(Comparison, of_fed_repeats_of_which_one_still_fills_has_bounds) {
+    const std::vector<fs::path> runs{fed_repeat("settled_1", 0.0, 1), fed_repeat("settled_2", 0.0, 2), fed_repeat("filling_3", 0.2, 3)};
+    const Comparison mixed = compare_runs(runs);
+    ASSERT_EQ(mixed.settings.size(), 1u);
+    const Estimate& spillage = quantity_of(mixed, "ratio").settings[0];
+    EXPECT_FALSE(spillage.value) << "of one repeat it is not known";
+    EXPECT_FALSE(spillage.half_width);
+    ASSERT_TRUE(spillage.low && spillage.high);
+    EXPECT_NEAR(*spillage.low, (0.4 + 0.4 + 0.32) / 3.0, 0.01);
+    EXPECT_NEAR(*spillage.high, (0.4 + 0.4 + 0.52) / 3.0, 0.01);
+    EXPECT_TRUE(quantity_of(mixed, "production").settings[0].value);
+    EXPECT_FALSE(quantity_of(mixed, "production").settings[0].low) << "it has no bounds in any repeat";
+    EXPECT_THAT(comparison_text(mixed), HasSubstr("| spillage: 1 - delivered / fed | [0.37"));
+    const Comparison settled = compare_runs({runs[0], runs[1]});
+    EXPECT_FALSE(quantity_of(settled, "ratio").settings[0].low) << "no bounds where every repeat is settled";
+}
+
 /// The small run with a torque that is noted often.
 fs::path pushed(const std::string& name, double torque, double length_ratio) {
     const fs::path directory = variant(name, {}, length_ratio);
