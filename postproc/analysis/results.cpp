@@ -421,7 +421,8 @@ json scale_json(const ScaleNumbers& scale) {
             {"cut_over_discharge", or_null(scale.cut_ratio)},
             {"blade_angle_less_ladder_deg", or_null(scale.blade_angle_less_ladder)},
             {"friction_rock", or_null(scale.friction_rock)},
-            {"friction_steel", or_null(scale.friction_steel)}};
+            {"friction_steel", or_null(scale.friction_steel)},
+            {"friction_soil", or_null(scale.friction_soil)}};
 }
 
 json recorded_flow_json(const RecordedFlow& flow) {

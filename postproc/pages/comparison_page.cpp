@@ -57,6 +57,9 @@ std::string differences_table(const Comparison& comparison) {
                                              "swing_speed_m_min",
                                              "flow_number",
                                              "cells",
+                                             "froude",
+                                             "settling_ratio",
+                                             "size_ratio",
                                              "settling_number",
                                              "fall_through",
                                              "swing_over_rotor_speed",
@@ -65,6 +68,7 @@ std::string differences_table(const Comparison& comparison) {
                                              "blade_angle_less_ladder_deg",
                                              "friction_rock",
                                              "friction_steel",
+                                             "friction_soil",
                                              "cut_height_m",
                                              "step_m",
                                              "pipe_velocity_m_s",
@@ -142,6 +146,7 @@ constexpr PointColumn k_point_columns[] = {{"speed_rpm", "rpm", 1.0, -0.5},
                                            {"delivered_in_situ_m3_h", "delivered in situ, m³/h", 1.0, 2.5},
                                            {"delivered_kg_s", "delivered rock, t/h", 3.6, 2.5},
                                            {"ratio", "spillage, %", 100.0, 0.0},
+                                           {"spillage_with_fines", "spillage with fines, %", 100.0, 0.0},
                                            {"spilled_mixing_share", "mixing, %", 100.0, 0.0},
                                            {"spilled_cutting_share", "cutting, %", 100.0, 0.0},
                                            {"left_behind_share", "left behind, %", 100.0, 0.0},
@@ -150,13 +155,19 @@ constexpr PointColumn k_point_columns[] = {{"speed_rpm", "rpm", 1.0, -0.5},
                                            {"mixture_density_kg_m3", "mixture, kg/m³", 1.0, 0.0},
                                            {"concentration", "C<sub>vd</sub>, %", 100.0, 0.0},
                                            {"pipe_velocity_m_s", "mouth, m/s", 1.0, 0.5},
-                                           {"spill_layer_m", "spill layer, m", 1.0, 1.0},
+                                           {"largest_delivered_m", "largest rock, mm", 1e3, 1.0},
+                                           {"spill_layer_m", "spill layer at most, m", 1.0, 1.0},
+                                           {"next_layer_m", "next swing’s layer, m", 1.0, 1.0},
                                            {"torque_flow_mean_n_m", "torque flow, kN m", 1e-3, 4.0},
                                            {"torque_rock_mean_n_m", "torque rock, kN m", 1e-3, 4.0},
                                            {"cutting_torque_n_m", "torque cutting, kN m", 1e-3, 3.0},
                                            {"power_mean_w", "power flow and rock, kW", 1e-3, 3.5},
+                                           {"cutting_power_w", "power cutting, kW", 1e-3, 2.5},
                                            {"energy_in_situ_j_m3", "MJ per delivered m³", 1e-6, 1.0},
                                            {"flow_number", "θ", 1.0, 0.0},
+                                           {"froude", "ω²R/g", 1.0, 0.0},
+                                           {"settling_ratio", "u<sub>t</sub>/(ωR)", 1.0, 0.0},
+                                           {"size_ratio", "d/R", 1.0, 0.0},
                                            {"settling_number", "S<sub>t</sub>", 1.0, 0.0},
                                            {"fall_through", "F", 1.0, 0.0},
                                            {"swing_over_rotor_speed", "v<sub>h</sub>/(ωR)", 1.0, 0.0},
@@ -165,6 +176,7 @@ constexpr PointColumn k_point_columns[] = {{"speed_rpm", "rpm", 1.0, -0.5},
                                            {"blade_angle_less_ladder_deg", "β − λ, °", 1.0, 0.0},
                                            {"friction_rock", "μ rock on rock", 1.0, 0.0},
                                            {"friction_steel", "μ rock on steel", 1.0, 0.0},
+                                           {"friction_soil", "μ rock on soil", 1.0, 0.0},
                                            {"well_mixed_spillage", "S<sub>mix</sub>, %", 100.0, 0.0},
                                            {"head_is_full", "full", 1.0, 0.0}};
 
@@ -205,10 +217,11 @@ std::string points_section(const Comparison& comparison) {
         content += fmt::format("<h3>Prototype, {:g} times as long, by Froude’s law</h3>", ratio) + points_table(comparison, ratio);
     content +=
         "<p>θ = Q/(ωR³); S<sub>t</sub> = u<sub>t</sub>/(Q/(πR²)); F = u<sub>t</sub> cos λ 2π/(zωw), λ the ladder’s inclination, z blades "
-        "of depth w; "
-        "f<sub>z</sub> = 2πv<sub>h</sub>/(ωz); Q<sub>c</sub> the soil cut; β the blades’ angle with the axis; S<sub>mix</sub>: spillage of "
-        "neutral, well-mixed rock. Torque of cutting only where soil.specific_energy_mj_m3 is given; it is the same energy per volume in "
-        "the prototype.</p>";
+        "of depth w; f<sub>z</sub> = 2πv<sub>h</sub>/(ωz); Q<sub>c</sub> the soil cut; β the blades’ angle with the axis; "
+        "S<sub>mix</sub>: spillage of neutral, well-mixed rock; d and u<sub>t</sub> are means by mass of the feed. Spillage with fines "
+        "takes these as such rock. Spill layer: all that is spilled on one step’s width, the most that swings leave in the end; the next "
+        "swing’s: on all that the head passed (bed.spill_layer_m). Torque and power of cutting only where soil.specific_energy_mj_m3 is "
+        "given; it is the same energy per volume in the prototype.</p>";
     return html::section("The operating points", content);
 }
 

@@ -490,6 +490,7 @@ void add_numbers_at_work(std::vector<std::vector<std::string>>& rows, const Scal
         "°");
     add("friction μ of rock on rock", scale.friction_rock);
     add("friction μ of rock on steel", scale.friction_steel);
+    add("friction μ of rock on soil", scale.friction_soil);
 }
 
 std::string operation_section(const Results& results, const RunData& run) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "postproc/analysis/best_speed.hpp"
+#include "postproc/pages/comparison_page.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {
@@ -162,8 +163,8 @@ TEST(Dredging, says_of_what_part_an_earlier_programs_ledger_knows_the_cause) {
 // Six blades of 0.1 to 0.05 m depth below a ring that closes the circumference; rock settles at 1.036 m/s, the ladder is at 45 degrees.
 TEST(ScaleNumbers, of_a_head_at_work_follow_their_definitions) {
     const fs::path directory = at_work("numbers");
-    write_text(directory / "study.resolved.toml",
-               read_text(directory / "study.resolved.toml") + "\n[rock]\nfriction_rock = 0.5\nfriction_steel = 0.35\n");
+    write_text(directory / "study.resolved.toml", read_text(directory / "study.resolved.toml") +
+                                                      "\n[rock]\nfriction_rock = 0.5\nfriction_steel = 0.35\nfriction_soil = 0.6\n");
     nlohmann::json geometry = nlohmann::json::parse(read_text(directory / "geometry/geometry.json"));
     const auto slice = [](double angle, double coverage, double depth) {
         return nlohmann::json{{"z_m", 0.0}, {"angle_deg", angle}, {"coverage", coverage}, {"depth_m", depth}};
@@ -182,12 +183,51 @@ TEST(ScaleNumbers, of_a_head_at_work_follow_their_definitions) {
     EXPECT_NEAR(number("blade_angle_less_ladder_deg"), 30.0 - 45.0, 1e-9);
     EXPECT_EQ(number("friction_rock"), 0.5);
     EXPECT_EQ(number("friction_steel"), 0.35);
+    EXPECT_EQ(number("friction_soil"), 0.6);
     const Comparison comparison = compare_runs({directory, at_work("numbers_of_an_earlier_program", 30.0)});
     const Quantity& fall_through = *find_quantity(comparison, "fall_through");
     EXPECT_NEAR(*fall_through.settings[0].value, number("fall_through"), 1e-12);
     EXPECT_FALSE(fall_through.settings[1].value) << "its geometry.json tells nothing of the blades";
     EXPECT_NEAR(*find_quantity(comparison, "settling_number")->settings[1].value, number("settling_number"), 1e-9);
     EXPECT_NEAR(*find_quantity(comparison, "swing_over_rotor_speed")->settings[1].value, 2.0 * number("swing_over_rotor_speed"), 1e-9);
+}
+
+/// Gives its feed fines, the layers that a swing may leave and the friction of rock on soil; one rock of 40 mm comes to the mouth.
+void know_all(const fs::path& directory) {
+    const std::string feed = "kind = \"cut_face\"\n";
+    std::string study = read_text(directory / "study.resolved.toml");
+    study.insert(study.find(feed), "disintegration = 0.8\n");
+    write_text(directory / "study.resolved.toml", study + "\n[rock]\nfriction_soil = 0.6\n");
+    nlohmann::json report = nlohmann::json::parse(read_text(directory / "feed.json"));
+    for (const double thickness : {0.2, 0.4, 0.6})
+        report["feeds"][0]["layers"].push_back({{"thickness_m", thickness}, {"section_m2", thickness * k_step}});
+    write_text(directory / "feed.json", report.dump());
+    testing::add_events(directory, {{9.0, 105, "feed", "in", "", 0.0, 0.04}, {11.0, 105, "mouth", "in", "", 0.0, 0.04}});
+}
+
+TEST(Dredging, of_several_heads_stands_beside_each_other_with_all_that_a_report_has) {
+    const fs::path known = at_work("compared_known"), earlier = at_work("compared_earlier", 30.0);
+    know_all(known);
+    const Comparison comparison = compare_runs({known, earlier});
+    const Results& results = comparison.runs[0].results;
+    const Dredging& work = *results.dredging;
+    const auto value = [&](const char* key, std::size_t setting) { return quantity_of(comparison, key, setting).value; };
+    ASSERT_TRUE(work.next_layer && work.spillage_with_fines && work.largest_delivered && work.cutting_power);
+    EXPECT_EQ(*value("next_layer_m", 0), *work.next_layer);
+    EXPECT_FALSE(value("next_layer_m", 1)) << "its feed.json tells no layers";
+    EXPECT_EQ(*value("spillage_with_fines", 0), *work.spillage_with_fines);
+    EXPECT_EQ(*value("largest_delivered_m", 0), 0.04);
+    EXPECT_FALSE(value("largest_delivered_m", 1)) << "nothing came to its mouth in the window";
+    EXPECT_EQ(*value("cutting_power_w", 0), *work.cutting_power);
+    EXPECT_NEAR(*value("froude", 0), std::pow(2.0 * k_pi, 2) * 0.4 / 9.81, 1e-9);
+    EXPECT_NEAR(*value("settling_ratio", 1), 1.036 / (k_pi * 0.4), 1e-9);
+    EXPECT_NEAR(*value("size_ratio", 0), 0.02 / 0.4, 1e-12);
+    EXPECT_EQ(*value("friction_soil", 0), 0.6);
+    EXPECT_FALSE(value("friction_soil", 1)) << "earlier programs did not write it";
+    const std::string page = read_text(write_comparison(comparison, testing::fresh_directory("compared_page") / "page"));
+    for (const char* column : {"next swing’s layer, m", "largest rock, mm", "power cutting, kW", "spillage with fines, %", "ω²R/g",
+                               "u<sub>t</sub>/(ωR)", "d/R", "μ rock on soil"})
+        EXPECT_NE(page.find(fmt::format("<th scope=\"col\">{}</th>", column)), std::string::npos) << column;
 }
 
 TEST(Dredging, tells_no_layer_and_no_total_while_the_head_fills) {

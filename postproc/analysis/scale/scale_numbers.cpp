@@ -84,6 +84,7 @@ ScaleNumbers scale_numbers_of(const RunData& run, const std::optional<double>& c
     scale.froude = omega * omega * radius / k_gravity;
     scale.friction_rock = of_study(run, "rock.friction_rock");
     scale.friction_steel = of_study(run, "rock.friction_steel");
+    scale.friction_soil = of_study(run, "rock.friction_soil");
     if (angle) scale.blade_angle_less_ladder = *angle - point.inclination_deg;
     if (cut_in_situ) scale.cut_ratio = *cut_in_situ / point.discharge;
     if (point.swing_speed > 0.0) {

@@ -18,8 +18,8 @@ struct ScaleNumbers {
     std::optional<double> swing_ratio;      ///< v_h / (omega R)
     std::optional<double> bite_ratio;       ///< f_z / w, f_z = 2 pi v_h / (omega z): what a blade takes over its depth
     std::optional<double> cut_ratio;        ///< Q_c / Q, Q_c the soil that is cut
-    std::optional<double> blade_angle_less_ladder;        ///< beta - lambda [deg], beta the middle one of the slices with blades
-    std::optional<double> friction_rock, friction_steel;  ///< mu of rock on rock and on steel
+    std::optional<double> blade_angle_less_ladder;  ///< beta - lambda [deg], beta the middle one of the slices with blades
+    std::optional<double> friction_rock, friction_steel, friction_soil;  ///< mu of rock on rock, on steel and on soil
 };
 
 /// \param cut_in_situ  soil that the swing cuts [m3/s], where it is known
