@@ -46,10 +46,18 @@ int shape(Mark mark) {
             return 4;
         case Mark::diamond:
             return 13;
+        case Mark::open_diamond:
+            return 12;
         case Mark::triangle:
             return 9;
+        case Mark::open_triangle:
+            return 8;
         case Mark::triangle_down:
             return 11;
+        case Mark::cross:
+            return 2;
+        case Mark::plus:
+            return 1;
         case Mark::none:
             break;
     }

@@ -36,7 +36,7 @@ struct Axis {
     bool visible = true;
 };
 
-enum class Mark { none, disc, ring, square, open_square, diamond, triangle, triangle_down };
+enum class Mark { none, disc, ring, square, open_square, diamond, open_diamond, triangle, open_triangle, triangle_down, cross, plus };
 
 /// Points, a line through them, or both. A series with neither line nor mark is only felt by tool tips.
 struct Series {

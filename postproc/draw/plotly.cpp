@@ -40,10 +40,18 @@ const char* symbol(Mark mark) {
             return "square-open";
         case Mark::diamond:
             return "diamond";
+        case Mark::open_diamond:
+            return "diamond-open";
         case Mark::triangle:
             return "triangle-up";
+        case Mark::open_triangle:
+            return "triangle-up-open";
         case Mark::triangle_down:
             return "triangle-down";
+        case Mark::cross:
+            return "x-thin-open";
+        case Mark::plus:
+            return "cross-thin-open";
         case Mark::disc:
         case Mark::none:
             break;

@@ -74,6 +74,46 @@ struct Share {
 };
 constexpr Share k_shares[] = {{"ratio", "spillage ratio", palette::spilled}, {"production", "production", palette::sucked_up}};
 
+/// Whether a setting's hold-up still changes, of one repeat or more: its spillage has bounds and no value.
+bool still_changes(const Comparison& comparison, std::size_t setting) {
+    const Estimate& spillage = quantity_of(comparison, quantity::k_spillage, setting);
+    return scope_of(comparison).fed_by_cutting && !spillage.value && spillage.low;
+}
+
+Mark open_form(Mark mark) {
+    switch (mark) {
+        case Mark::diamond:
+            return Mark::open_diamond;
+        case Mark::square:
+            return Mark::open_square;
+        case Mark::triangle:
+            return Mark::open_triangle;
+        default:
+            return Mark::ring;
+    }
+}
+
+/// The same quantity where the hold-up still changes: open marks that no line joins.
+Series form_of_changing(Series series) {
+    series.name += ", hold-up still changes";
+    series.mark = open_form(series.mark);
+    series.line_width = 0.0;
+    return series;
+}
+
+/// Said where there are such marks.
+std::string changing_text(const Comparison& comparison) {
+    for (std::size_t i = 0; i < comparison.settings.size(); ++i)
+        if (still_changes(comparison, i))
+            return " Open marks, joined by no line: the hold-up still changes, and this is no steady production.";
+    return "";
+}
+
+void add_drawn(Plot& plot, const std::vector<Series>& all) {
+    for (const Series& series : all)
+        if (!series.x.empty()) plot.series.push_back(series);
+}
+
 /// Spillage and production, setting by setting.
 Plot shares_plot(const Comparison& comparison) {
     Plot plot = share_plot("shares", "setting", k_share_title);
@@ -81,11 +121,13 @@ Plot shares_plot(const Comparison& comparison) {
     for (const Share& share : k_shares) {
         Series series{share.name, share.colour, {}, {}};
         series.mark = Mark::disc;
+        Series changing = form_of_changing(series);
         const Quantity& quantity = *find_quantity(comparison, share.key);
         for (std::size_t i = 0; i < comparison.settings.size(); ++i)
             if (quantity.settings[i].value)
-                add_point(series, comparison, i, static_cast<double>(i + 1) + shift, quantity.settings[i], k_percent);
-        if (!series.x.empty()) plot.series.push_back(series);
+                add_point(still_changes(comparison, i) ? changing : series, comparison, i, static_cast<double>(i + 1) + shift,
+                          quantity.settings[i], k_percent);
+        add_drawn(plot, {series, changing});
         shift = 0.06;
     }
     plot.x.from = 0.5;
@@ -152,11 +194,13 @@ void add_trends(Plot& plot, const Comparison& comparison, const Against& against
                 drawn.name + (group.empty() ? "" : ", " + group), quantities.size() > 1 ? drawn.colour : setting_colour(count), {}, {}};
             series.mark = marks[count % std::size(marks)];
             series.line_width = 1.2;
+            Series changing = form_of_changing(series);
             const Quantity& quantity = *find_quantity(comparison, drawn.key);
             for (const std::size_t i : members(groups, group, against.quantity))
                 if (quantity.settings[i].value)
-                    add_point(series, comparison, i, *against.quantity.settings[i].value, quantity.settings[i], drawn.factor);
-            if (!series.x.empty()) plot.series.push_back(series);
+                    add_point(still_changes(comparison, i) ? changing : series, comparison, i, *against.quantity.settings[i].value,
+                              quantity.settings[i], drawn.factor);
+            add_drawn(plot, {series, changing});
         }
         ++count;
     }
@@ -196,9 +240,9 @@ void add_measured_point(Series& series, const std::string& test, double speed, c
     series.point_names.push_back(fmt::format("measured: {}", test));
 }
 
-/// Tests against the rotor's speed, as open marks in the colours of the shares.
+/// Tests against the rotor's speed, as crosses in the colours of the shares.
 void add_measured_points(Plot& plot, const Comparison& comparison) {
-    constexpr Mark marks[] = {Mark::ring, Mark::open_square};
+    constexpr Mark marks[] = {Mark::cross, Mark::plus};
     std::size_t count = 0;
     for (const MeasuredSeries& measured : comparison.measured) {
         Series spillage{"spillage, " + measured.name, palette::spilled, {}, {}};
@@ -208,8 +252,7 @@ void add_measured_points(Plot& plot, const Comparison& comparison) {
             add_measured_point(spillage, measured.name, point.speed_rpm, point.spillage);
             add_measured_point(production, measured.name, point.speed_rpm, point.production);
         }
-        for (const Series& series : {spillage, production})
-            if (!series.x.empty()) plot.series.push_back(series);
+        add_drawn(plot, {spillage, production});
     }
 }
 
@@ -427,9 +470,10 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
     const bool fed = scope_of(comparison).fed_by_cutting;
     const std::string shares = fed ? "Spillage, 1 − delivered / fed, and production, delivered / fed, by mass"
                                    : "Spillage ratio, spilled / (spilled + sucked up), and production, sucked up / placed, by mass";
-    const std::string bars =
-        fed ? "; bars are 95 % intervals. Spillage is not drawn while the hold-up still changes; the table has its bounds and the hold-up."
-            : "; bars are bounds: what the undecided rock could still do.";
+    const std::string bars = fed ? "; bars are 95 % intervals. Spillage is not drawn while the hold-up still changes; the table has its "
+                                   "bounds and the hold-up." +
+                                       changing_text(comparison)
+                                 : "; bars are bounds: what the undecided rock could still do.";
     std::vector<Figure> figures{{shares_plot(comparison), shares + ", of every setting" + bars, ""}};
     const Quantity &speed = *find_quantity(comparison, quantity::k_speed), &flow_number = *find_quantity(comparison, "flow_number");
     const Quantity* delivered = find_quantity(comparison, quantity::k_delivered);
@@ -441,8 +485,7 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
         const DrawnLines lines = with_measured && fed ? add_outflow_lines(plot, comparison) : DrawnLines{};
         figures.push_back(with_legend_that_fits(
             plot,
-            shares + ", against " + against.what + bars +
-                (with_measured && !comparison.measured.empty() ? " Open marks are measured." : "") +
+            shares + ", against " + against.what + bars + (with_measured && !comparison.measured.empty() ? " Crosses are measured." : "") +
                 (lines.outflow ? " Line: S<sub>out</sub>, what neutral rock would spill with each run’s own outflow." : "") +
                 (lines.hypothesis
                      ? " Dashed, a hypothesis and no result: 1 − (1 − S<sub>out</sub>) exp(−(n<sub>0</sub>/n)²), rock that falls through "
@@ -452,7 +495,7 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
             figures.push_back(
                 with_legend_that_fits(delivered_plot(comparison, against),
                                       "Soil delivered per hour, in its volume in the bank and in the model’s scale, against " +
-                                          against.what + "; bars are 95 % intervals."));
+                                          against.what + "; bars are 95 % intervals." + changing_text(comparison)));
     };
     if (varies(speed) || !comparison.measured.empty())
         add_trend({speed, k_rotor_speed_key, "speed", "rotor speed, rpm", {".3g", " rpm"}, "the rotor’s speed"}, true);

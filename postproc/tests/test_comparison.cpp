@@ -311,6 +311,34 @@ TEST(DeliveredMap, joins_no_settings_that_differ_in_anything_else) {
         << "one speed of the rotor";
 }
 
+// 60 % of what goes on are delivered: 48 % of all where a fifth of the feed stays in the head.
+TEST(Comparison, marks_heads_that_still_fill_in_every_curve) {
+    const Comparison comparison =
+        compare_runs({of_sweep("fills_a", 30.0, 0.0), of_sweep("fills_b", 60.0, 0.0, 0.2), of_sweep("fills_c", 90.0, 0.0)});
+    int drawn = 0;
+    for (const Figure& figure : comparison_figures(comparison)) {
+        std::map<std::string, Series> by_name;
+        for (const Series& series : figure.plot.series) by_name[series.name] = series;
+        for (const std::string name : {"production", "delivered"}) {
+            if (by_name.count(name) == 0) continue;
+            ++drawn;
+            const Series &settled = by_name[name], &changing = by_name[name + ", hold-up still changes"];
+            EXPECT_EQ(settled.x.size(), 2u) << figure.plot.name;
+            EXPECT_EQ(settled.mark, Mark::disc) << figure.plot.name;
+            ASSERT_EQ(changing.x.size(), 1u) << figure.plot.name;
+            EXPECT_EQ(changing.mark, Mark::ring) << figure.plot.name;
+            EXPECT_EQ(changing.line_width, 0.0) << figure.plot.name;
+            EXPECT_EQ(changing.colour, settled.colour) << figure.plot.name;
+            EXPECT_THAT(changing.point_names.at(0), HasSubstr("60 rpm"));
+            if (name == "production") EXPECT_NEAR(changing.y[0], 48.0, 1.0) << figure.plot.name;
+            EXPECT_THAT(figure.caption, HasSubstr("Open marks, joined by no line: the hold-up still changes"));
+        }
+    }
+    EXPECT_EQ(drawn, 4) << "by setting, against the speed, soil against it, against the flow number";
+    for (const Figure& figure : comparison_figures(compare_runs({of_sweep("fills_d", 30.0, 0.0), of_sweep("fills_e", 60.0, 0.0)})))
+        EXPECT_EQ(figure.caption.find("Open marks"), std::string::npos) << figure.plot.name;
+}
+
 TEST(Comparison, names_a_key_only_where_it_tells_settings_apart) {
     const Comparison comparison = compare_runs({of_sweep("both_a", 45.0, 0.0), of_sweep("both_b", 60.0, 90.0)});
     EXPECT_EQ(comparison.settings[1].label, "60 rpm");

@@ -1,6 +1,7 @@
 /// One description, two renderings: both show the same numbers, and no text leaves its string.
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -48,6 +49,25 @@ Series measured() {
     series.y_high = {14.0, 33.0, 24.0};
     series.point_names = {"a", "b", "c"};
     return series;
+}
+
+TEST(Plot, marks_are_told_apart_in_both_renderings) {
+    const std::vector<Mark> marks{Mark::disc,          Mark::ring,         Mark::square,   Mark::open_square,
+                                  Mark::diamond,       Mark::open_diamond, Mark::triangle, Mark::open_triangle,
+                                  Mark::triangle_down, Mark::cross,        Mark::plus};
+    std::set<std::string> of_gnuplot, of_plotly;
+    for (const Mark mark : marks) {
+        Plot plot;
+        plot.name = "marks";
+        plot.series = {{"one", "#d55e00", {1.0}, {2.0}}};
+        plot.series[0].mark = mark;
+        const std::string commands = gnuplot_commands(plot);
+        const std::size_t at = commands.find(" pt ");
+        of_gnuplot.insert(commands.substr(at, commands.find(" ps ", at) - at));
+        of_plotly.insert(plotly_figure(plot).at("data").at(0).at("marker").at("symbol"));
+    }
+    EXPECT_EQ(of_gnuplot.size(), marks.size());
+    EXPECT_EQ(of_plotly.size(), marks.size());
 }
 
 TEST(Plot, series_have_the_same_points_and_bars_in_both_renderings) {
