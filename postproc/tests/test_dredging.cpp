@@ -1,6 +1,7 @@
 // A fed head whose rates are known by hand: 10 kg/s of 2000 kg/m3 of soil, 60 % delivered.
 #include "postproc/analysis/dredging.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -302,6 +303,38 @@ TEST(Dredging, follows_delivered_rock_from_cut_to_mouth) {
     const Dredging work = dredging_of(results, run);
     EXPECT_NEAR(*work.residence_time, (2.0 + 8.0 * 3.0) / 9.0, 1e-9);
     EXPECT_EQ(*work.largest_delivered, 0.04);
+}
+
+/// Of what is held up, `owed` kg wait for a place at any time.
+void let_rock_wait(const fs::path& directory, double owed) {
+    const Table ledger = read_ledger(directory);
+    const auto at = [&](const char* column, std::size_t row) { return ledger.number(column)[row]; };
+    std::string text =
+        "time_s,fed_kg,owed_kg,in_head_kg,delivered_kg,spilled_mixing_kg,spilled_cutting_kg,on_bed_kg,left_behind_kg,"
+        "left_behind_cutting_kg,error\n";
+    for (std::size_t row = 0; row < ledger.rows(); ++row) {
+        const double held = at("in_head_kg", row), waiting = std::min(owed, held);
+        text += fmt::format("{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},0,0,0,0,0\n", at("time_s", row), at("fed_kg", row), waiting,
+                            held - waiting, at("delivered_kg", row), at("spilled_mixing_kg", row));
+    }
+    write_text(directory / "postProcessing/rock/0/ledger.csv", text);
+}
+
+// Of 10 kg/s always 2 kg wait: 0.2 s before a rock has the place from which it takes 2 s to the mouth.
+TEST(Dredging, counts_the_wait_for_a_place_to_the_time_from_cut_to_mouth) {
+    const fs::path directory = at_work("dredging_wait", 30.0);
+    let_rock_wait(directory, 2.0);
+    testing::add_events(directory, {{10.0, 105, "feed", "in", ""}, {12.0, 105, "mouth", "in", ""}});
+    const RunData run = read_run(directory);
+    const Results results = compute_results(run);
+    EXPECT_NEAR(waiting_time(*results.fed, run.operating_point.revolution_s()), 0.2, 1e-6);
+    ASSERT_TRUE(results.dredging->residence_time);
+    EXPECT_NEAR(*results.dredging->residence_time, 2.2, 1e-6);
+    const nlohmann::json written = results_json(results, run).at("dredging");
+    EXPECT_NEAR(written.at("residence_time_s").get<double>() - written.at("waiting_time_s").get<double>(), 2.0, 1e-6);
+    const Comparison comparison = compare_runs({directory, at_work("dredging_no_wait")});
+    EXPECT_NEAR(*quantity_of(comparison, "waiting_time_s", 0).value, 0.2, 1e-6);
+    EXPECT_EQ(*quantity_of(comparison, "waiting_time_s", 1).value, 0.0);
 }
 
 // Ring radius 0.4 m, 60 rpm, 0.12 m3/s through a mouth of 0.1 m radius; 40 % are spilled.
