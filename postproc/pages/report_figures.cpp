@@ -352,10 +352,11 @@ Figure ratio_over_time(const Table& fates, const Spillage& spillage, double revo
     return {plot, "Spillage ratio over time with its bounds: lower, all undecided rock is sucked up; upper, all is spilled.", ""};
 }
 
-/// Azimuths between which the bank stands beside the ring, from the lowest side to the bank's top; none without a bank.
+/// Azimuths between which the bank stands beside the ring, from the lowest side to the bank's top; none without a bank, nor of one of a
+/// file, whose top the study does not tell.
 std::optional<std::pair<double, double>> bank_sector(const RunData& run) {
     const OperatingPoint& point = run.operating_point;
-    if (!point.has_bank || !(point.cut_height > 0.0)) return std::nullopt;
+    if (!point.has_bank || point.bank_of_file || !(point.cut_height > 0.0)) return std::nullopt;
     const double inclination = point.inclination_deg * k_pi / 180.0, c = std::cos(inclination), s = std::sin(inclination);
     const geometry::Contour& head = run.contour;
     double lowest = std::numeric_limits<double>::infinity();
@@ -379,8 +380,14 @@ std::string quarters_text(const LastExits& exits) {
         share(quarters.bottom));
 }
 
+std::string bank_text(const OperatingPoint& point, bool is_drawn) {
+    if (is_drawn) return " Brown: where the bank stands beside the ring, up to its top.";
+    return point.has_bank && point.bank_of_file ? " The bank, of bank.file, is not drawn." : "";
+}
+
 /// Mass by azimuth of the last exit, seen from the hub, lowest side down.
-Figure last_exit(const LastExits& exits, const std::optional<std::pair<double, double>>& bank, bool in_window) {
+Figure last_exit(const LastExits& exits, const RunData& run, bool in_window) {
+    const std::optional<std::pair<double, double>> bank = bank_sector(run);
     constexpr std::size_t count = k_last_exit_sectors, steps_of_arc = 13;
     double largest = 0.0;
     for (const RockAmount& sector : exits.sectors) largest = std::max(largest, sector.mass);
@@ -442,7 +449,7 @@ Figure last_exit(const LastExits& exits, const std::optional<std::pair<double, d
         fmt::format("Mass of rock by the azimuth at which it left the head for the last time{} (sectors of 30°, rock that came back or was "
                     "sucked up left out). Seen from the hub, the lowest side down.",
                     in_window ? ", in the window of the production" : "") +
-            quarters_text(exits) + (bank ? " Brown: where the bank stands beside the ring, up to its top." : ""),
+            quarters_text(exits) + bank_text(run.operating_point, bank.has_value()),
         "rose"};
 }
 
@@ -543,8 +550,7 @@ std::vector<PlacedFigure> report_figures(const Results& results, const RunData& 
     if (rock && has_outflow(results) && results.exits->supplied > 0.0) add(Place::figures, top_bin_figure(results));
     for (const auto& plane : {axial_plane(run), plane_under_ring(run)})
         if (plane) add(Place::figures, *plane);
-    if (results.exits && has_exits(*results.exits))
-        add(Place::figures, last_exit(*results.exits, bank_sector(run), results.fed.has_value()));
+    if (results.exits && has_exits(*results.exits)) add(Place::figures, last_exit(*results.exits, run, results.fed.has_value()));
     if (rock) add(Place::figures, fates_over_time(run.rock->fates, *rock, revolution));
     if (is_batch) add(Place::figures, ratio_over_time(run.rock->fates, *rock, revolution));
     const bool is_coupled = rock && !run.flow;

@@ -133,6 +133,7 @@ OperatingPoint read_operating_point(StudyReader& study) {
     point.mesh_preset = study.text("mesh.preset", false);
     point.fed_by_cutting = study.is_fed_by_cutting();
     point.has_bank = study.has_bank();
+    point.bank_of_file = !study.text("bank.file", false).empty();
     point.swing_speed = study.number_or("swing.speed_m_min", 0.0) / 60.0;
     point.bulking = study.number_or("soil.bulking", point.bulking);
     point.cut_height = study.number_or("bank.cut_height_m", 0.0);

@@ -35,6 +35,7 @@ struct OperatingPoint {
     std::string mesh_preset;                ///< may be empty
     bool fed_by_cutting = false;            ///< rock comes all the time, from a cut face
     bool has_bank = false;                  ///< soil stands beside the head
+    bool bank_of_file = false;              ///< and is the user's own: cut_height is what the swing cuts and not its top
     double swing_speed = 0.0;               ///< [m/s]; 0: not given
     double in_situ_density = 0.0;           ///< dry grains per volume of soil, rho_grain (1 - n) [kg/m3]; 0: not given
     double grain_density = 0.0;             ///< of the soil [kg/m3]; 0: not given

@@ -213,6 +213,25 @@ TEST(ReportFigures, rose_and_results_have_the_mass_by_azimuth_of_the_last_exit) 
     EXPECT_NEAR(exits.at("window_end_s").get<double>(), 2.0, 1e-9);
 }
 
+// Of a bank of the user's own the height of the cut tells no top.
+TEST(ReportFigures, rose_has_the_bank_that_follows_from_the_swing_and_none_of_a_file) {
+    const auto rose_of = [](const std::string& name, const std::string& bank) {
+        SmallRun run(name);
+        run.write();
+        const std::filesystem::path study = run.directory / "study.resolved.toml";
+        testing::write_text(study, read_text(study) + "\n[bank]\nmodel = \"wall\"\ncut_height_m = 0.32\n" + bank);
+        for (const PlacedFigure& item : figures_of_run(run.directory))
+            if (item.figure.plot.name == "last_exit") return item.figure;
+        throw std::runtime_error("no rose");
+    };
+    const Figure of_swing = rose_of("figures_rose_bank", ""), of_file = rose_of("figures_rose_file", "file = \"mine.stl\"\n");
+    EXPECT_EQ(of_swing.plot.polygons.size(), 2u) << "sectors and soil";
+    EXPECT_TRUE(contains(of_swing.caption, "Brown: where the bank stands")) << of_swing.caption;
+    EXPECT_EQ(of_file.plot.polygons.size(), 1u);
+    EXPECT_FALSE(contains(of_file.caption, "Brown")) << of_file.caption;
+    EXPECT_TRUE(contains(of_file.caption, "The bank, of bank.file, is not drawn.")) << of_file.caption;
+}
+
 TEST(ReportFigures, of_flow_alone_show_no_rock) {
     SmallRun run("figures_flow");
     run.with_rock = false;
