@@ -45,8 +45,8 @@ void add_cause(const Losses& losses, WaysOut& ways) {
     ways.cause_known = std::min(1.0, known / lost);
 }
 
-/// By the mean flux through the bin's part of the head's boundary, which counts what crosses a tapering contour along the axis too; in runs
-/// of earlier programs by the mean radial velocity.
+/// By the mean flux through the bin's part of the head's boundary, all around it, which counts what crosses a tapering contour along the
+/// axis too; in runs of earlier programs by the mean radial velocity.
 std::optional<WaysOut> ways_out_of(const Results& results) {
     const std::vector<BinSpillage>& bins = results.exits->bins;
     double with = 0.0, against = 0.0;
@@ -188,8 +188,9 @@ std::string limits_text(const Results& results) {
     if (results.fed->is_full) sentence += "; ";
     if (!ways) return sentence + "which way rock leaves is not known, for want of the mean flow through the head's contour.";
     sentence += fmt::format(
-        "of the rock that left the head outside the mouth {} went where the water flows outwards (outflow), {} where it "
-        "flows inwards (it fell through or was thrown out)",
+        "of the rock that left the head outside the mouth {} went through bins along the axis where the water flows outwards in the mean "
+        "around the head (outflow), {} through bins where it flows inwards in that mean (it fell through, was thrown out, or went with an "
+        "outflow on one side)",
         text::percent(ways->with_outflow), text::percent(ways->against_inflow));
     if (ways->by_cutting) sentence += fmt::format("; {} had never been taken in (lost in cutting)", cause_text(*ways));
     if (results.mixing)
