@@ -32,6 +32,8 @@ constexpr double k_travel_share = 0.25;
 // What each rock adds: its mapping, by the cells in the cube of its kernel's width (0.12 ms for 20 mm on the draft mesh, 0.43 ms for 30
 // mm), and each step of its contacts, as in a dense bed.
 constexpr double k_seconds_per_mapped_cell = 23e-6, k_seconds_per_contact_step = 0.65e-6;
+// Memory of each rock by the same cells: 20 kB where its kernel is 1.5 cells wide (docs/results/many_rocks.md).
+constexpr double k_bytes_per_mapped_cell = 6e3;
 constexpr double k_seconds_of_feed_at_work = 2.0;  // of a cut face: in the head, and near it before it counts as left behind
 // Core time of the stages before the run: per cell, and per cell and iteration (draft mesh of the model cutter).
 constexpr double k_mesh_seconds_per_cell = 0.24e-3, k_start_seconds_per_cell = 2.8e-6;
@@ -82,9 +84,11 @@ coupling::ContactSettings contacts_of(const Study& study, double tip_speed, doub
 
 struct RockCost {
     double contact_step = 0.0;     // of the smallest rock [s]; 0 without rock
-    double mapped_seconds = 0.0;   // core time of a step of the run for all rock's mapping [s]
+    double mapped_cells = 0.0;     // in the cubes of all rock's kernel widths
     double contact_seconds = 0.0;  // and for one step of all rock's contacts [s]
-    double of_step(double step) const { return contact_step > 0.0 ? mapped_seconds + contact_seconds * step / contact_step : 0.0; }
+    double of_step(double step) const {
+        return contact_step > 0.0 ? mapped_cells * k_seconds_per_mapped_cell + contact_seconds * step / contact_step : 0.0;
+    }
 };
 
 RockCost rock_cost(const Study& study, const coupling::ContactSettings& contact, double cell) {
@@ -97,7 +101,7 @@ RockCost rock_cost(const Study& study, const coupling::ContactSettings& contact,
                                            : contact_step(contact, rock.diameter, rock.density);
             cost.contact_step = cost.contact_step > 0.0 ? std::min(cost.contact_step, step) : step;
             const double width = coupling::mapping_width(study.kernel, rock.diameter, cell) / cell;
-            cost.mapped_seconds += counts[i] * k_seconds_per_mapped_cell * width * width * width;
+            cost.mapped_cells += counts[i] * width * width * width;
             const auto spheres = static_cast<double>(rock.shape ? rock.shape->clump.balls.size() : 1);
             cost.contact_seconds += counts[i] * spheres * k_seconds_per_contact_step;
         }
@@ -153,6 +157,7 @@ Prediction predict(const Study& study, const HeadSize& head, const geometry::Tri
     const coupling::ContactSettings contact = contacts_of(study, prediction.tip_speed, prediction.mouth_speed);
     const RockCost cost = rock_cost(study, contact, k_cell_at_rock * plan.cell_size);
     prediction.contact_step = cost.contact_step;
+    prediction.run_memory = plan.prediction.run_memory + cost.mapped_cells * k_bytes_per_mapped_cell;
     const double core_hours_per_step = plan.prediction.core_hours_per_revolution * plan.prediction.time_step / study.period();
     prediction.core_hours_per_revolution =
         machine.slowness * core_hours_per_step * (1.0 + k_flow_per_rank * (machine.ranks - 1)) * flow_steps;
@@ -190,7 +195,7 @@ std::string to_text(const Prediction& p) {
     text += fmt::format("time step    about {:.2g} s, with rock {:.2g} s; {:.0f} steps for {:g} revolutions\n", p.flow_step, p.rock_step,
                         p.steps, p.revolutions);
     text += fmt::format("memory       about {:.2g} GB for the mesh, {:.2g} GB for the run on one rank\n", 1e-9 * p.mesh.mesh_memory,
-                        1e-9 * p.mesh.run_memory);
+                        1e-9 * p.run_memory);
     text += fmt::format("disk         about {:.2g} GB\n", 1e-9 * (p.mesh_disk + p.run_disk));
     if (p.contact_step > 0.0)
         text += fmt::format("contacts     step {:.2g} s, {:.0f} of them in a step with rock\n", p.contact_step,
@@ -215,7 +220,7 @@ nlohmann::json to_json(const Prediction& p) {
             {"time_step_s", p.flow_step},
             {"time_step_with_rock_s", p.rock_step},
             {"mesh_memory_bytes", p.mesh.mesh_memory},
-            {"run_memory_bytes", p.mesh.run_memory},
+            {"run_memory_bytes", p.run_memory},
             {"disk_bytes", p.mesh_disk + p.run_disk},
             {"steps", p.steps},
             {"contact_step_s", p.contact_step},

@@ -29,6 +29,7 @@ struct Prediction {
     double contact_step = 0.0;                         ///< [s]; 0 without rock
     double mesh_seconds = 0.0, start_seconds = 0.0;    ///< core time of these stages
     double core_hours = 0.0;                           ///< of the stage run
+    double run_memory = 0.0;                           ///< of the solver on one rank, with its rock [bytes]
     double mesh_disk = 0.0;                            ///< written by the stages before the run [bytes]
     double run_disk = 0.0;                             ///< written by the run: fields, checkpoints kept, tables [bytes]
     double first_release = 0.0;                        ///< of rock [s]; the run's end without rock

@@ -1,6 +1,7 @@
 /// \file cutterflow as its users meet it: commands in, messages, exit codes and files out.
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include <gtest/gtest.h>
@@ -274,6 +275,11 @@ TEST_F(Cli, check_predicts_what_a_run_costs) {
     EXPECT_GT(hours, 0.02);
     EXPECT_LT(hours, 20.0);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2) << "check writes nothing";
+    study("[[feed]]\ncount = 220\n[[feed.class]]\ndiameter_m = 0.02\n");
+    const nlohmann::json more = nlohmann::json::parse(call({"check", "study.toml", "--json"}).text).at("prediction");
+    // Kernels of 20 mm in cells of 0.387 x 0.075 x 0.4 m: 20 kB for 1.5 cells, by the cube.
+    EXPECT_NEAR((more.at("run_memory_bytes").get<double>() - prediction.at("run_memory_bytes").get<double>()) / 200.0,
+                20e3 * std::pow(20.0 / 11.61 / 1.5, 3), 1e3);
 }
 
 // Core seconds per step of docs/results/step_cost.md: the draft mesh of this cutter on the machine undisturbed.
