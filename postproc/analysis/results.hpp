@@ -105,6 +105,8 @@ struct Delivery {
 /// Largest magnitude over all steps, relative. Absent where a run without rock has none.
 struct Conservation {
     std::optional<double> solid_volume, momentum, momentum_interface, flow_balance, interface_imbalance, interface_mismatch, domain_surplus;
+    std::optional<double> momentum_carried;               ///< what the water has yet to receive, over what rock exchanged in the step
+    std::optional<double> momentum_carried_median;        ///< of the steps with rock: below 1 where the water takes what it is given
     std::optional<double> overfull_cells, clipped_cells;  ///< largest number in a step
 };
 

@@ -298,6 +298,9 @@ std::string conservation_text(const Conservation& conservation) {
     if (conservation.momentum)
         text += fmt::format("momentum of rock and water {} of what rock exchanged, and {} lost or gained at the rotor interface, ",
                             number(conservation.momentum, "", 2), number(conservation.momentum_interface, "", 2));
+    if (conservation.momentum_carried)
+        text += fmt::format("momentum still owed to the water {} of what rock exchanged in the step (median of the steps with rock {}), ",
+                            number(conservation.momentum_carried, "", 2), number(conservation.momentum_carried_median, "", 2));
     text += fmt::format(
         "water balance {} of the discharge, rotor interface {} of the flow through it in sum and {} face by face: largest "
         "relative error of all steps",

@@ -370,8 +370,8 @@ void SmallRun::write_tables(const std::string& start_folder, double from, double
         const double pressure = -10.0 - 4.0 * wave, rock = step <= 100 || !with_rock ? 0.0 : -2.0;
         loads += fmt::format("{:.9g},{:.12g},{:.12g},-1,{},{:.12g}\n", time, 2.0 * k_pi * time, pressure, rock,
                              -(pressure - 1.0 + rock) * 2.0 * k_pi);
-        balance += fmt::format("{:.9g},{},1e-15,{},2e-4,3e-3,2e-3,0.01,-3e-8,2e-5,4e-3,1e-9,3e-16,7,0.12,-1.5,0.3,2,0.8,0.01,12,9,4\n",
-                               time, step == 150 ? -4e-14 : 1e-15, step == 160 ? 5e-12 : -1e-12);
+        balance += fmt::format("{:.9g},{},1e-15,{},2e-4,3e-3,2e-3,{},-3e-8,2e-5,4e-3,1e-9,3e-16,7,0.12,-1.5,0.3,2,0.8,0.01,12,9,4\n", time,
+                               step == 150 ? -4e-14 : 1e-15, step == 160 ? 5e-12 : -1e-12, step == 170 ? 6.5 : 0.01);
         cost += fmt::format("{:.9g},2,1.2,0.4,0.1,0.06,0.04\n", time);
     }
     if (with_rock) {

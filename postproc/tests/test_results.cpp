@@ -55,8 +55,8 @@ TEST(ResultsJson, has_every_key_of_the_contract) {
     for (const json& bin : results.at("spillage").at("bins")) {
         expect_keys(bin, {"name", "z_min_m", "z_max_m", "count", "mass_kg", "radial_velocity_mean_m_s"}, "bin");
     }
-    for (const char* key : {"solid_volume_max_error", "momentum_max_error", "momentum_interface_max_error", "flow_balance_max_error",
-                            "interface_imbalance_max", "interface_mismatch_max"}) {
+    for (const char* key : {"solid_volume_max_error", "momentum_max_error", "momentum_interface_max_error", "momentum_carried_max",
+                            "momentum_carried_median", "flow_balance_max_error", "interface_imbalance_max", "interface_mismatch_max"}) {
         EXPECT_TRUE(results.at("conservation").at(key).is_number()) << key;
     }
     for (const char* key : {"speed_rpm", "revolutions", "torque_flow_mean_n_m", "torque_rock_mean_n_m", "power_mean_w"}) {
@@ -215,6 +215,8 @@ TEST(ResultsJson, conservation_is_the_largest_magnitude_of_all_steps) {
     const json conservation = document_of_small_run("conservation").at("conservation");
     EXPECT_DOUBLE_EQ(conservation.at("solid_volume_max_error").get<double>(), 4e-14);
     EXPECT_DOUBLE_EQ(conservation.at("momentum_max_error").get<double>(), 5e-12);
+    EXPECT_DOUBLE_EQ(conservation.at("momentum_carried_max").get<double>(), 6.5);
+    EXPECT_DOUBLE_EQ(conservation.at("momentum_carried_median").get<double>(), 0.01);
     EXPECT_DOUBLE_EQ(conservation.at("flow_balance_max_error").get<double>(), 3e-8);
     EXPECT_DOUBLE_EQ(conservation.at("interface_imbalance_max").get<double>(), 2e-5);
     EXPECT_DOUBLE_EQ(conservation.at("interface_mismatch_max").get<double>(), 4e-3);

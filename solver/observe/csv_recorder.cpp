@@ -77,7 +77,7 @@ void CsvRecorder::begin() {
     balance_ = open(
         "balance", "balance.csv",
         "time_s,solid_volume_error,deposit_error,momentum_error,momentum_interface_error,momentum_replaced,momentum_turned,"
-        "momentum_carried,"
+        "momentum_carried,momentum_boundary,"
         "flow_balance_error,interface_imbalance,interface_mismatch,continuity_error,domain_surplus,clipped_cells,"
         "outlet_flow_m3_s,outlet_pressure_m2_s2,solid_fraction_max,overfull_cells,courant_max,speed_max_m_s,overlap_ratio_max,dem_substeps,"
         "rocks,contacts,"
@@ -240,16 +240,17 @@ void CsvRecorder::loads(const LoadsRow& row) {
 }
 
 void CsvRecorder::balance(const BalanceRow& row) {
-    fmt::print(balance_,
-               "{:.9g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{},{},{},{:.6g},{},{:.6g},{:.6g}"
-               ",{:.6g},{}"
-               ",{},{},{:."
-               "9g},{:.9g}\n",
-               row.time, row.solid_volume_error, row.deposit_error, row.momentum.error, row.momentum.interface_error, row.momentum.replaced,
-               row.momentum.turned, row.momentum.carried, row.flow_balance_error, row.interface_imbalance, row.interface_mismatch,
-               row.continuity_error, row.domain_surplus, row.clipped_cells, optional_number(row.outlet_flow),
-               optional_number(row.outlet_pressure), row.solid_fraction_max, row.overfull_cells, row.courant_max, row.speed_max,
-               row.overlap_ratio_max, row.dem_substeps, row.rocks, row.contacts, row.exchanged_volume, row.exchanged_momentum);
+    fmt::print(
+        balance_,
+        "{:.9g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{},{},{},{:.6g},{},{:.6g},{:.6g}"
+        ",{:.6g},{}"
+        ",{},{},{:."
+        "9g},{:.9g}\n",
+        row.time, row.solid_volume_error, row.deposit_error, row.momentum.error, row.momentum.interface_error, row.momentum.replaced,
+        row.momentum.turned, row.momentum.carried, row.momentum.boundary, row.flow_balance_error, row.interface_imbalance,
+        row.interface_mismatch, row.continuity_error, row.domain_surplus, row.clipped_cells, optional_number(row.outlet_flow),
+        optional_number(row.outlet_pressure), row.solid_fraction_max, row.overfull_cells, row.courant_max, row.speed_max,
+        row.overlap_ratio_max, row.dem_substeps, row.rocks, row.contacts, row.exchanged_volume, row.exchanged_momentum);
 }
 
 void CsvRecorder::cost(const CostRow& row) {

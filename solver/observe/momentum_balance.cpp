@@ -60,8 +60,8 @@ MomentumErrors MomentumBalance::end(gsl::span<const Vec3> carry, const DemStep& 
     communicator_.sum(gsl::span<double>(sums.data(), sums.size()));
     if (turnover == 0.0) return {};
     const Vec3 gain = momentum_of(dem_.rocks()) + momentum_of(rock.left) - rock_before_ + sums.head<3>();
-    return {(gain - outside).norm() / turnover, loads.interface_impulse.norm() / turnover, loads.replaced_momentum.norm() / turnover,
-            loads.turned_momentum.norm() / turnover, sums.tail<3>().norm() / turnover};
+    return {(gain - outside).norm() / turnover,      loads.interface_impulse.norm() / turnover, loads.replaced_momentum.norm() / turnover,
+            loads.turned_momentum.norm() / turnover, sums.tail<3>().norm() / turnover,          loads.boundary_impulse.norm() / turnover};
 }
 
 }  // namespace cutterflow::coupling

@@ -16,6 +16,7 @@ struct MomentumErrors {
     double replaced = 0.0;         ///< |FluidLoads::replaced_momentum|
     double turned = 0.0;           ///< |FluidLoads::turned_momentum|
     double carried = 0.0;          ///< |sum of what the fluid has yet to receive|: it grows without end where the fluid takes nothing
+    double boundary = 0.0;         ///< |FluidLoads::boundary_impulse|: 0 where the fluid has no boundary
 };
 
 /// Balance of

@@ -16,6 +16,7 @@
 #include "geometry/io/write_stl.hpp"
 #include "postproc/draw/head/head_series.hpp"
 #include "validation/harness/largest.hpp"
+#include "validation/harness/momentum_carried.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/killed_run.hpp"
 #include "validation/harness/scenes/rotor_case.hpp"
@@ -72,6 +73,7 @@ TEST_P(Rotor, conserves_volume_momentum_and_flow_with_rock_between_its_blades) {
     EXPECT_GT(largest(balance.at("contacts")), 0);
     EXPECT_LE(largest(balance.at("solid_volume_error")), 1e-12);
     EXPECT_LE(largest(balance.at("momentum_error")), 1e-5);
+    EXPECT_LE(median_carried(balance), k_most_carried);
 
     double flow_balance = 0.0;
     const auto& time = balance.at("time_s");
@@ -88,9 +90,11 @@ TEST_P(Rotor, conserves_volume_momentum_and_flow_with_rock_between_its_blades) {
     fs::rename(folder / "geometry/binary.stlb", folder / names::cutter_surface);
     geometry::write_stl(bank_beside_rotor(cases::test::tiny_inputs().contour).soil(k_reach_beside_rotor), folder / names::bank_surface);
     postproc::write_head_series(folder);
-    fmt::print("rotor on {} rank(s): {} steps, solid volume error {:.1e}, momentum error {:.1e}, flow balance {:.1e} of Q, spilled {}\n",
-               GetParam(), time.size(), largest(balance.at("solid_volume_error")), largest(balance.at("momentum_error")), flow_balance,
-               fates.at("spilled_count").back());
+    fmt::print(
+        "rotor on {} rank(s): {} steps, solid volume error {:.1e}, momentum error {:.1e}, owed {:.1e} (at most {:.1e}), flow balance "
+        "{:.1e} of Q, spilled {}\n",
+        GetParam(), time.size(), largest(balance.at("solid_volume_error")), largest(balance.at("momentum_error")), median_carried(balance),
+        largest(balance.at("momentum_carried")), flow_balance, fates.at("spilled_count").back());
 }
 
 TEST_P(Rotor, takes_a_batch_of_rock_without_a_blow) {

@@ -59,6 +59,22 @@ TEST(Duct, DischargeIsHeldAndDisplacedVolumeComesThroughTheInlet) {
     }
 }
 
+// A pressure that is not solved for: water at 1 m/s passes a cloud at half its speed, and each section misses what the cloud displaces
+// there, 0.5 m/s times the change of its solid fraction. Up to the cloud's middle and after it that adds up to 2 x 0.5 m/s x 0.3 of the
+// section.
+TEST(Duct, APressureThatIsNotSolvedShowsInContinuity) {
+    testing::TinyCase tiny = duct("duct_unsolved", 2e-3);
+    tiny.files["system/fvSolution"] += "solvers { \"p.*\" { solver PBiCGStab; preconditioner DIC; tolerance 10; relTol 0; } }\n";
+    FluidRun run(testing::build_case(tiny), true, {"outlet", {}});
+    const auto solid = [](double time) {
+        return [time](const Vec3& x) { return 1.0 - 0.3 * std::exp(-0.5 * std::pow((x.x() - 0.25 - 0.5 * time) / 0.05, 2)); };
+    };
+    run.begin();
+    run.end(run.evaluate(solid(0.0)), run.evaluate(solid(2e-3)));
+    EXPECT_NEAR(run.engine().loads().continuity_error, 0.15, 0.01);
+    EXPECT_NEAR(run.engine().loads().outlet_flow.value(), k_discharge, 1e-12);
+}
+
 // What goes out through the wall comes in through the inlet: a sum of all flows would be 0.
 TEST(Duct, AWallThatLeaksIsNoOutflow) {
     constexpr double speed = 0.02, leak = speed * k_length * 0.1;

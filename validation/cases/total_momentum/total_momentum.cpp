@@ -8,6 +8,7 @@
 #include "geometry/base/run_files.hpp"
 #include "solver/coupling/checkpoint.hpp"
 #include "validation/harness/largest.hpp"
+#include "validation/harness/momentum_carried.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/study_numerics.hpp"
 #include "validation/harness/verification.hpp"
@@ -23,6 +24,7 @@ constexpr double k_mass = 2650.0 * k_pi / 6.0 * k_diameter * k_diameter * k_diam
 constexpr double k_speed = 1.0;                                                        // [m/s]
 constexpr double k_drift = 1e-5;                                                       // the requirement
 constexpr double k_drift_before = 1e-7, k_error_before = 1e-9;                         // as good as they were
+constexpr double k_no_boundary = 1e-9;                                                 // rounding, of a room without any
 constexpr int k_side = 4;                                                              // rocks along an edge of the cloud
 constexpr double k_interval = 0.01;                                                    // between states [s]
 constexpr int k_states = 6;
@@ -95,6 +97,8 @@ struct Drift {
     double total = 0.0;        ///< largest change of rock, water and carry
     double owed = 0.0;         ///< change of rock and water alone, at the end
     double of_the_run = 0.0;   ///< largest momentum_error of balance.csv: of one step, over the step's turnover
+    double carried = 0.0;      ///< largest momentum_carried, likewise
+    double boundary = 0.0;     ///< largest momentum_boundary, likewise
     double handed_over = 0.0;  ///< share of the rock's momentum, at the end
 };
 
@@ -108,7 +112,10 @@ Drift drift_of(const BoxCase& box, const fs::path& folder) {
         drift.owed = std::abs(now.rock + now.water - start) / exchanged;
         drift.handed_over = exchanged / start;
     }
-    drift.of_the_run = largest(read_columns(folder / "postProcessing/balance/0/balance.csv").at("momentum_error"));
+    const auto balance = read_columns(folder / "postProcessing/balance/0/balance.csv");
+    drift.of_the_run = largest(balance.at("momentum_error"));
+    drift.carried = largest(balance.at("momentum_carried"));
+    drift.boundary = largest(balance.at("momentum_boundary"));
     return drift;
 }
 
@@ -130,6 +137,11 @@ Drift drift_at(Verification& verification, double time_step, Turbulence turbulen
     verification.at_most(of_the_run, "-", drift.of_the_run, k_drift, {"exact", "", {}});
     verification.at_most(of_the_run + ", as good as it was", "-", drift.of_the_run, k_error_before,
                          {"exact", "bound: some 80 times the largest value in 2026-11", {}});
+    verification.at_most("largest momentum_carried of balance.csv" + with, "-", drift.carried, k_most_carried,
+                         {"exact", "less than a step's exchange is owed where the water takes two thirds of it", {}});
+    if (turbulent)
+        verification.at_most("largest momentum_boundary of balance.csv, in a room without boundaries" + with, "-", drift.boundary,
+                             k_no_boundary, {"exact", "0; a water that blames a boundary for what it did not take has some 0.8", {}});
     return drift;
 }
 
