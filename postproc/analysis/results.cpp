@@ -184,6 +184,13 @@ Conservation worst_balance(const Table& balance, bool with_rock) {
     worst.momentum_interface = largest_magnitude(balance.number("momentum_interface_error"));
     worst.momentum_carried = largest_magnitude(balance.number("momentum_carried"));
     worst.momentum_carried_median = median_carried(balance);
+    const auto largest_if_told = [&](const char* column) {
+        return balance.has(column) ? largest_magnitude(balance.number(column)) : std::nullopt;
+    };
+    worst.swept_limited_cells = largest_if_told(k_swept_limited_cells);
+    worst.wake_limited_rocks = largest_if_told(k_wake_limited_rocks);
+    worst.hidden_rocks = largest_if_told(k_hidden_rocks);
+    worst.cramped_rocks = largest_if_told(k_cramped_rocks);
     return worst;
 }
 
@@ -533,7 +540,11 @@ json results_json(const Results& results, const RunData& run) {
                                 {"interface_mismatch_max", or_null(results.conservation.interface_mismatch)},
                                 {"domain_surplus_max", or_null(results.conservation.domain_surplus)},
                                 {"overfull_cells_max", or_null(results.conservation.overfull_cells)},
-                                {"clipped_cells_max", or_null(results.conservation.clipped_cells)}};
+                                {"clipped_cells_max", or_null(results.conservation.clipped_cells)},
+                                {"swept_limited_cells_max", or_null(results.conservation.swept_limited_cells)},
+                                {"wake_limited_rocks_max", or_null(results.conservation.wake_limited_rocks)},
+                                {"hidden_rocks_max", or_null(results.conservation.hidden_rocks)},
+                                {"cramped_rocks_max", or_null(results.conservation.cramped_rocks)}};
     document["rotor"] = rotor_json(results, run);
     const auto of_mixing = [&](double Mixing::*member) { return results.mixing ? json((*results.mixing).*member) : json(nullptr); };
     document["mixing"] = {{"outflow_over_discharge", of_mixing(&Mixing::outflow_over_discharge)},

@@ -108,6 +108,8 @@ struct Conservation {
     std::optional<double> momentum_carried;               ///< what the water has yet to receive, over what rock exchanged in the step
     std::optional<double> momentum_carried_median;        ///< of the steps with rock: below 1 where the water takes what it is given
     std::optional<double> overfull_cells, clipped_cells;  ///< largest number in a step
+    std::optional<double> swept_limited_cells, wake_limited_rocks, hidden_rocks,
+        cramped_rocks;  ///< likewise; none in runs of earlier programs
 };
 
 /// What was predicted before the run, for the time that it ran.

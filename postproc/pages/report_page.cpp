@@ -292,6 +292,27 @@ std::string flow_answers(const Results& results) {
     return blocks;
 }
 
+/// Which limits acted, and in how many cells or on how many rocks of a step at most.
+std::string limits_text(const Conservation& conservation) {
+    struct Limit {
+        std::optional<double> Conservation::*count;
+        const char* told;
+    };
+    constexpr Limit limits[] = {
+        {&Conservation::clipped_cells, "the turbulence model raised a field to its least value in up to {} cells of a step"},
+        {&Conservation::overfull_cells, "up to {} cells of a step held more rock than they may, as none in reach had room"},
+        {&Conservation::swept_limited_cells, "from up to {} cells of a step walls swept more rock than may be taken from a cell itself"},
+        {&Conservation::wake_limited_rocks, "up to {} rocks of a step have a larger wake than is taken out of what they see"},
+        {&Conservation::hidden_rocks, "up to {} rocks of a step lay in steel of the mesh and were mapped from the nearest cell"},
+        {&Conservation::cramped_rocks, "up to {} rocks of a step in nooks of the mesh also lay in cells behind the steel"}};
+    std::string text;
+    for (const Limit& limit : limits) {
+        const std::optional<double>& count = conservation.*limit.count;
+        if (count.value_or(0.0) > 0.0) text += "; " + fmt::format(fmt::runtime(limit.told), number(count, "", 3));
+    }
+    return text;
+}
+
 std::string conservation_text(const Conservation& conservation) {
     std::string text;
     if (conservation.solid_volume) text += fmt::format("rock volume on the mesh {}, ", number(conservation.solid_volume, "", 2));
@@ -306,10 +327,7 @@ std::string conservation_text(const Conservation& conservation) {
         "relative error of all steps",
         number(conservation.flow_balance, "", 2), number(conservation.interface_imbalance, "", 2),
         number(conservation.interface_mismatch, "", 2));
-    if (conservation.clipped_cells.value_or(0.0) > 0.0)
-        text += fmt::format("; the turbulence model raised a field to its least value in up to {} cells of a step",
-                            number(conservation.clipped_cells, "", 3));
-    return text;
+    return text + limits_text(conservation);
 }
 
 std::string cost_text(const Cost& cost) {

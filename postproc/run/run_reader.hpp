@@ -129,6 +129,12 @@ Table read_events(const std::filesystem::path& run_directory);
 /// Column of ledger.csv: of left_behind_kg, what was never taken in. Runs of earlier programs have none.
 inline constexpr const char* k_left_behind_cutting = "left_behind_cutting_kg";
 
+/// Columns of balance.csv that runs of earlier programs do not have: how often the coupling fell back on a bound.
+inline constexpr const char* k_swept_limited_cells = "swept_limited_cells";
+inline constexpr const char* k_wake_limited_rocks = "wake_limited_rocks";
+inline constexpr const char* k_hidden_rocks = "hidden_rocks";
+inline constexpr const char* k_cramped_rocks = "cramped_rocks";
+
 /// ledger.csv of a run or a replay, likewise.
 Table read_ledger(const std::filesystem::path& run_directory);
 

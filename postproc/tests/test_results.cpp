@@ -225,6 +225,25 @@ TEST(ResultsJson, conservation_is_the_largest_magnitude_of_all_steps) {
     EXPECT_EQ(conservation.at("clipped_cells_max").get<double>(), 7.0);
 }
 
+TEST(ResultsJson, conservation_has_what_the_coupling_limited) {
+    SmallRun run("limited");
+    run.write();
+    const char* const keys[] = {"swept_limited_cells_max", "wake_limited_rocks_max", "hidden_rocks_max", "cramped_rocks_max"};
+    for (const char* key : keys) EXPECT_TRUE(document_of(run).at("conservation").at(key).is_null()) << "of an earlier program: " << key;
+    const auto file = run.directory / "postProcessing/balance/0/balance.csv";
+    std::istringstream lines(testing::read_text(file));
+    std::string line, text;
+    for (int i = 0; std::getline(lines, line); ++i) {
+        const char* const counts = i == 50 ? ",3e-4,5,0,2,0\n" : ",1e-4,1,0,1,0\n";
+        text += line + (i == 0 ? ",momentum_boundary,swept_limited_cells,wake_limited_rocks,hidden_rocks,cramped_rocks\n" : counts);
+    }
+    testing::write_text(file, text);
+    const json conservation = document_of(run).at("conservation");
+    const double expected[] = {5.0, 0.0, 2.0, 0.0};
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(conservation.at(keys[i]).get<double>(), expected[i]) << keys[i];
+    EXPECT_EQ(conservation.at("overfull_cells_max").get<double>(), 2.0);
+}
+
 TEST(ResultsJson, cost_sums_the_steps) {
     const json cost = document_of_small_run("cost").at("cost");
     EXPECT_NEAR(cost.at("wall_s").get<double>(), 400.0, 1e-9);

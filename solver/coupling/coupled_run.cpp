@@ -410,6 +410,7 @@ void CoupledRun::report_loads_and_balance() {
     balance.outlet_pressure = loads.outlet_pressure;
     balance.solid_fraction_max = balance_.solid_fraction_max;
     balance.overfull_cells = balance_.overfull_cells;
+    balance.limited = balance_.limited;
     balance.courant_max = loads.courant_max;
     balance.speed_max = loads.speed_max;
     balance.overlap_ratio_max = moved_.max_overlap_ratio;

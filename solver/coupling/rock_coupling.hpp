@@ -6,6 +6,7 @@
 #include <gsl/span>
 
 #include "solver/coupling/feed/rock_feed.hpp"
+#include "solver/observe/limiter_counts.hpp"
 #include "solver/ports/dem_engine.hpp"
 #include "solver/ports/fluid_engine.hpp"
 
@@ -17,6 +18,7 @@ struct ExchangeBalance {
     double deposit_error = 0.0;  ///< |momentum laid into cells - that of the rocks| / (sum |impulse| + carry); says nothing of the fluid
     double solid_fraction_max = 0.0;
     int overfull_cells = 0;  ///< of the whole mesh, with more than kernel.maxSolidFraction: no cell in reach had room
+    LimiterCounts limited;
 };
 
 /// Fluid displaced at insertion of rock, less fluid that replaced removed rock; no source in the fluid's equations.

@@ -74,14 +74,14 @@ void CsvRecorder::begin() {
     std::filesystem::remove(folder("cost") / "cost.json");  // it would say that this start has come to its end
     const std::string soil = settings_.soil ? ",soil_force_x_n,soil_force_y_n,soil_force_z_n" : "";
     loads_ = open("loads", "loads.csv", "time_s,rotor_angle_rad,torque_pressure_n_m,torque_viscous_n_m,torque_rock_n_m,power_w" + soil);
-    balance_ = open(
-        "balance", "balance.csv",
-        "time_s,solid_volume_error,deposit_error,momentum_error,momentum_interface_error,momentum_replaced,momentum_turned,"
-        "momentum_carried,momentum_boundary,"
-        "flow_balance_error,interface_imbalance,interface_mismatch,continuity_error,domain_surplus,clipped_cells,"
-        "outlet_flow_m3_s,outlet_pressure_m2_s2,solid_fraction_max,overfull_cells,courant_max,speed_max_m_s,overlap_ratio_max,dem_substeps,"
-        "rocks,contacts,"
-        "exchanged_volume_m3,exchanged_momentum_n_s");
+    balance_ =
+        open("balance", "balance.csv",
+             "time_s,solid_volume_error,deposit_error,momentum_error,momentum_interface_error,momentum_replaced,momentum_turned,"
+             "momentum_carried,momentum_boundary,"
+             "flow_balance_error,interface_imbalance,interface_mismatch,continuity_error,domain_surplus,clipped_cells,"
+             "outlet_flow_m3_s,outlet_pressure_m2_s2,solid_fraction_max,overfull_cells,swept_limited_cells,wake_limited_rocks,hidden_rocks,"
+             "cramped_rocks,courant_max,speed_max_m_s,overlap_ratio_max,dem_substeps,rocks,contacts,exchanged_volume_m3,"
+             "exchanged_momentum_n_s");
     cost_ = open("cost", "cost.csv", "time_s,step_s,fluid_s,mesh_motion_s,mapping_s,dem_s,output_s");
     warnings_.open(folder("cost") / names::warnings);
     require_written(warnings_, folder("cost") / names::warnings);
@@ -240,17 +240,17 @@ void CsvRecorder::loads(const LoadsRow& row) {
 }
 
 void CsvRecorder::balance(const BalanceRow& row) {
-    fmt::print(
-        balance_,
-        "{:.9g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{},{},{},{:.6g},{},{:.6g},{:.6g}"
-        ",{:.6g},{}"
-        ",{},{},{:."
-        "9g},{:.9g}\n",
-        row.time, row.solid_volume_error, row.deposit_error, row.momentum.error, row.momentum.interface_error, row.momentum.replaced,
-        row.momentum.turned, row.momentum.carried, row.momentum.boundary, row.flow_balance_error, row.interface_imbalance,
-        row.interface_mismatch, row.continuity_error, row.domain_surplus, row.clipped_cells, optional_number(row.outlet_flow),
-        optional_number(row.outlet_pressure), row.solid_fraction_max, row.overfull_cells, row.courant_max, row.speed_max,
-        row.overlap_ratio_max, row.dem_substeps, row.rocks, row.contacts, row.exchanged_volume, row.exchanged_momentum);
+    fmt::print(balance_, "{:.9g}", row.time);
+    for (const double error :
+         {row.solid_volume_error, row.deposit_error, row.momentum.error, row.momentum.interface_error, row.momentum.replaced,
+          row.momentum.turned, row.momentum.carried, row.momentum.boundary, row.flow_balance_error, row.interface_imbalance,
+          row.interface_mismatch, row.continuity_error, row.domain_surplus})
+        fmt::print(balance_, ",{:.4g}", error);
+    fmt::print(balance_, ",{},{},{},{:.6g},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{},{},{},{:.9g},{:.9g}\n", row.clipped_cells,
+               optional_number(row.outlet_flow), optional_number(row.outlet_pressure), row.solid_fraction_max, row.overfull_cells,
+               row.limited.swept_cells, row.limited.wake_rocks, row.limited.hidden_rocks, row.limited.cramped_rocks, row.courant_max,
+               row.speed_max, row.overlap_ratio_max, row.dem_substeps, row.rocks, row.contacts, row.exchanged_volume,
+               row.exchanged_momentum);
 }
 
 void CsvRecorder::cost(const CostRow& row) {

@@ -8,6 +8,7 @@
 #include <gsl/span>
 
 #include "geometry/base/vec3.hpp"
+#include "solver/observe/limiter_counts.hpp"
 #include "solver/observe/momentum_balance.hpp"
 #include "solver/observe/rock_account.hpp"
 #include "solver/ports/dem_engine.hpp"
@@ -145,6 +146,7 @@ struct BalanceRow {
     std::optional<double> outlet_flow, outlet_pressure;  ///< of the named outlet [m3/s], [m2/s2]
     double solid_fraction_max = 0.0;
     int overfull_cells = 0;
+    LimiterCounts limited;
     double courant_max = 0.0;
     double speed_max = 0.0;  ///< of the fluid in a cell [m/s]
     double overlap_ratio_max = 0.0;

@@ -50,6 +50,7 @@ inline double own_trace_share(double solid_fraction) {
 struct OwnTrace {
     Vec3 velocity = Vec3::Zero();      ///< [m/s]
     Vec3 acceleration = Vec3::Zero();  ///< [m/s2]
+    bool is_limited = false;           ///< its wake is more than k_largest_wake
 };
 
 /// A rock and how it samples.
@@ -76,7 +77,7 @@ inline OwnTrace own_trace(const Vec3& slip, const Vec3& velocity, double drag_ra
                         (1.0 - rock.share) * k_deposit_response.overlap * k_deposit_response.bend / free_overlap;
     const double opposed =
         kinematic_viscosity * rock.width / of_both(&OwnResponse::stokes) + speed * width2 / of_both(&OwnResponse::wake);  // [m3/s]
-    const double wake = std::min(k_largest_wake, beside_walls * drag_rate / opposed);
+    const double whole_wake = beside_walls * drag_rate / opposed, wake = std::min(k_largest_wake, whole_wake);
     const double push = 2.0 / 3.0 * rock.overlap * drag_rate * reynolds * reynolds /
                         (reynolds * reynolds + of_both(&OwnResponse::push_1) * reynolds + of_both(&OwnResponse::push_2));  // [1/s]
     const double way = rock.volume * rock.overlap;
@@ -84,7 +85,8 @@ inline OwnTrace own_trace(const Vec3& slip, const Vec3& velocity, double drag_ra
     const double along = velocity.dot(slip) / (speed * speed);  // v over s
     const double of_step = 0.5 * step * push * along * along / (1.0 + k_wake_saturation * along * along * speed * step / rock.width);
     const Vec3 bent = velocity.squaredNorm() * slip + 2.0 * velocity.dot(slip) * velocity;
-    return {(wake / (1.0 - wake) + of_step - way / 3.0) * slip, push * slip - way * bend * step / (15.0 * width2) * bent};
+    return {(wake / (1.0 - wake) + of_step - way / 3.0) * slip, push * slip - way * bend * step / (15.0 * width2) * bent,
+            whole_wake > k_largest_wake};
 }
 
 }  // namespace cutterflow::physics

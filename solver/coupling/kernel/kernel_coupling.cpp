@@ -49,8 +49,10 @@ double largest_of(const std::vector<double>& solid_fraction, Communicator& commu
     return largest;
 }
 
-int count_above(double limit, const std::vector<double>& solid_fraction, Communicator& communicator) {
-    auto count = static_cast<double>(std::count_if(solid_fraction.begin(), solid_fraction.end(), [&](double f) { return f > limit; }));
+/// Over the cells of all ranks.
+template <typename Holds>
+int count_cells(const Holds& holds, const std::vector<double>& values, Communicator& communicator) {
+    auto count = static_cast<double>(std::count_if(values.begin(), values.end(), holds));
     communicator.sum(gsl::span<double>(&count, 1));
     return static_cast<int>(count);
 }
@@ -250,6 +252,7 @@ void KernelCoupling::take_out_own_trace() {
         std::copy_n(velocity_of_cells(p).data(), 3, &known[k_known * p + cell_velocity]);
     }
     communicator_.sum(known);
+    balance_.limited.wake_rocks = 0;
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         FlowAtRock& flow = flow_[p];
         if (!flow.has_cells) continue;
@@ -265,6 +268,7 @@ void KernelCoupling::take_out_own_trace() {
                                        physics::resolved_share(settings_.kernel.gamma * rocks.diameter[p] / of_rock[width])};
         const physics::OwnTrace trace =
             physics::own_trace(slip, through_cells, drag_rate, sampler, properties_.kinematic_viscosity, fluid_.time_step());
+        if (trace.is_limited) ++balance_.limited.wake_rocks;
         flow.velocity += share * trace.velocity;
         flow.acceleration += share * trace.acceleration;
     }
@@ -359,7 +363,7 @@ void KernelCoupling::note_fullness(const std::vector<double>& solid_fraction, do
     const double limit = settings_.kernel.max_solid_fraction;
     balance_.solid_fraction_max = largest;
     require_room(largest, settings_.kernel);
-    balance_.overfull_cells = count_above(limit, solid_fraction, communicator_);
+    balance_.overfull_cells = count_cells([limit](double f) { return f > limit; }, solid_fraction, communicator_);
     if (balance_.overfull_cells > 0)
         warn_once("overfull",
                   fmt::format("{} cells hold more than kernel.maxSolidFraction = {}, at most {:.3f}: no cell in reach has room{}",
@@ -414,6 +418,8 @@ void KernelCoupling::map() {
     std::transform(fractions[1].begin(), fractions[1].end(), inertia_.begin(), [factor](double f) { return factor * f; });
 
     check_ranges();
+    balance_.limited.hidden_rocks = static_cast<int>(present_.hidden);
+    balance_.limited.cramped_rocks = static_cast<int>(present_.cramped);
     balance_.solid_volume_error = std::max(volume_error(fractions[0], volumes), volume_error(fractions[1], volumes));
     note_fullness(fractions[1], std::max(largest_of(fractions[0], communicator_), largest_of(fractions[1], communicator_)));
 }
@@ -452,7 +458,7 @@ void KernelCoupling::even_out_within_kernels(const std::vector<double>& drag) {
 /// rock would be a source of fluid; laid over the kernel as a whole, it would be one around the blade.
 /// \param old_solid, present_solid  sum_p V_p w_old_pc, sum_p V_p w_pc
 std::vector<double> KernelCoupling::void_fraction_before(const std::vector<double>& volume, const std::vector<double>& old_solid,
-                                                         const std::vector<double>& present_solid) const {
+                                                         const std::vector<double>& present_solid) {
     const gsl::span<const double> retreat = fluid_.wall_retreat();
     const gsl::span<const double> cell_volume = mapping_.cells().volumes;
     std::vector<double> solid_fraction = old_solid, excess(carry_.size(), 0.0), beyond(volume.size(), 0.0);
@@ -466,6 +472,7 @@ std::vector<double> KernelCoupling::void_fraction_before(const std::vector<doubl
     }
     const auto is_some = [](double value) { return value != 0.0; };
     const bool has_excess = std::any_of(excess.begin(), excess.end(), is_some);
+    balance_.limited.swept_cells = count_cells(is_some, excess, communicator_);
     for (std::size_t p = 0; has_excess && p < present_.size(); ++p)
         for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
             const auto c = static_cast<std::size_t>(present_.cell[i]);
@@ -509,9 +516,12 @@ void KernelCoupling::check_ranges() {
     }
     if (mapping_.had_hidden_rock())
         warn_once("hidden",
-                  "a rock's centre lies inside the mesh's steel; it is mapped from the nearest cell (steel of mesh and walls differ)");
+                  "a rock's centre lies inside the mesh's steel; it is mapped from the nearest cell (steel of mesh and walls differ); "
+                  "balance.csv counts such rock");
     if (mapping_.had_cramped_rock())
-        warn_once("cramped", "a rock in a nook of the mesh sees too few cells to lie in; it also lies in cells behind the steel");
+        warn_once("cramped",
+                  "a rock in a nook of the mesh sees too few cells to lie in; it also lies in cells behind the steel; balance.csv counts "
+                  "such rock");
 }
 
 void KernelCoupling::check_range(const physics::Closure& closure, const physics::RockNumbers& numbers, int id) {

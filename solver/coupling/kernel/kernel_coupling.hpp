@@ -100,7 +100,7 @@ private:
     void even_out_within_kernels(const std::vector<double>& drag);
     std::vector<double> volumes_of_rock_in_both(std::vector<double> volumes) const;
     std::vector<double> void_fraction_before(const std::vector<double>& volume, const std::vector<double>& old_solid,
-                                             const std::vector<double>& present_solid) const;
+                                             const std::vector<double>& present_solid);
     physics::RockInFluid rock_in_fluid(const Rocks& rocks, std::size_t p, const FlowAtRock& flow) const;
     double sphericity_of(int shape) const;
     double drag_per_slip(const physics::RockInFluid& rock, double slip_speed) const;

@@ -61,6 +61,7 @@ void Stencils::clear() {
     sample.clear();
     overlap.clear();
     without_cells.clear();
+    hidden = cramped = 0;
 }
 
 void Stencils::resize_entries(std::size_t count) {
@@ -130,17 +131,21 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
     stencils.shared.sum(sums, k_sums, communicator_);
     std::vector<std::size_t> hidden;
     Outlook outlook = outlook_of(rocks, stencils, sums);
-    if (outlook.mapped < stencils.size()) {
-        const std::size_t in_view = outlook.mapped;
+    const std::size_t in_view = outlook.mapped;
+    if (in_view < stencils.size()) {
         hidden = replace_hidden(rocks, stencils, sums);
         outlook = outlook_of(rocks, stencils, sums);
-        had_hidden_rock_ = had_hidden_rock_ || outlook.mapped > in_view;
     }
+    const std::size_t out_of_view = outlook.mapped - in_view;
     if (outlook.mapped < stencils.size()) {
         leave_out_unmapped(stencils, sums);
         outlook = outlook_of(rocks, stencils, sums);
     }
-    if (outlook.some_are_cramped) make_room_for_cramped(rocks, stencils, sums, hidden);
+    if (outlook.cramped > 0) make_room_for_cramped(rocks, stencils, sums, hidden);
+    stencils.hidden = out_of_view;
+    stencils.cramped = outlook.cramped;
+    had_hidden_rock_ = had_hidden_rock_ || stencils.hidden > 0;
+    had_cramped_rock_ = had_cramped_rock_ || stencils.cramped > 0;
 
     stencils.overlap.assign(rocks.size(), 0.0);
     for (const std::size_t p : stencils.shared.near()) {
@@ -232,7 +237,7 @@ Mapping::Outlook Mapping::outlook_of(const RockShapes& rocks, const Stencils& st
     std::array<double, 2> counts{count([&](std::size_t p) { return is_mapped(sums, p); }),
                                  count([&](std::size_t p) { return is_cramped(rocks, sums, p); })};
     communicator_.sum(counts);
-    return {static_cast<std::size_t>(counts[0]), counts[1] > 0.0};
+    return {static_cast<std::size_t>(counts[0]), static_cast<std::size_t>(counts[1])};
 }
 
 /// Takes from rock that has no cells to lie in, or none to see the flow of, what entries it has. Collective
@@ -384,7 +389,6 @@ bool Mapping::is_cramped(const RockShapes& rocks, const std::vector<double>& sum
 /// no cell in its reach had room for it.
 void Mapping::make_room_for_cramped(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums,
                                     const std::vector<std::size_t>& hidden) {
-    had_cramped_rock_ = true;
     std::vector<std::size_t> cramped;
     for (const std::size_t p : stencils.shared.near())
         if (is_cramped(rocks, sums, p)) cramped.push_back(p);

@@ -35,6 +35,8 @@ struct Stencils {
     std::vector<double> sample;      ///< psi: from fluid to rock [1/m3]
     std::vector<double> overlap;     ///< of each rock that is near: sum of w psi V over the cells of all ranks [1/m3], as laid at first
     std::vector<std::size_t> without_cells;  ///< rocks that have no entry on any rank, ascending; the same on every rank
+    std::size_t hidden = 0;   ///< rocks of all ranks that saw no cell of water and were mapped from the nearest cell's centre instead
+    std::size_t cramped = 0;  ///< rocks of all ranks that saw so few cells that they were laid over cells behind steel and in soil as well
     std::size_t size() const { return width.size(); }
     /// Empties the stencils but keeps their capacity.
     void clear();
@@ -88,7 +90,7 @@ private:
     bool locate(const RockShapes& rocks, std::size_t rock, Stencils& stencils);
     struct Outlook {
         std::size_t mapped;
-        bool some_are_cramped;
+        std::size_t cramped;
     };
     Outlook outlook_of(const RockShapes& rocks, const Stencils& stencils, const std::vector<double>& sums) const;
     void leave_out_unmapped(Stencils& stencils, std::vector<double>& sums);

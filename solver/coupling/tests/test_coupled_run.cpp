@@ -130,6 +130,18 @@ TEST(CoupledRun, ends_when_a_closed_domain_has_water_too_much) {
 
 /// Lies about the flow through the boundary and the interface. What leaks out through a wall comes in through an open patch, so that both
 /// add up to nothing.
+TEST(CoupledRun, counts_cells_from_which_walls_take_more_rock_than_they_may) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    Rig rig(case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), folder.path(), recorder, Vec3::Zero());
+    rig.run->step();
+    for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c) rig.fluid.retreat[c] = 100.0 * rig.fluid.mesh.volumes[c];
+    rig.run->step();
+    ASSERT_EQ(recorder.balance_rows.size(), 2u);
+    EXPECT_EQ(recorder.balance_rows[0].limited.swept_cells, 0);
+    EXPECT_GT(recorder.balance_rows[1].limited.swept_cells, 0);
+}
+
 TEST(CoupledRun, tells_of_a_wall_that_leaks_and_of_an_interface_that_does_not_close) {
     constexpr double through = 0.1, leak = 2e-3, imbalance = 0.03, mismatch = 0.05;
     const TemporaryFolder folder;
@@ -1284,6 +1296,7 @@ TEST(CsvRecorder, writes_the_files_of_the_contract) {
     std::istringstream rows(every_line);
     std::string header, row;
     std::getline(rows, header);
+    EXPECT_NE(header.find(",overfull_cells,swept_limited_cells,wake_limited_rocks,hidden_rocks,cramped_rocks,"), std::string::npos);
     while (std::getline(rows, row)) EXPECT_EQ(commas(row), commas(header));
 }
 

@@ -330,6 +330,8 @@ TEST(RockInSteel, is_mapped_from_the_nearest_cell_on_its_side) {
     Bench bench(std::move(mesh));
     const Stencils s = bench.build(one_rock(Vec3(0.002, 0.001, 0.002), 0.004));
     EXPECT_TRUE(bench.mapping.had_hidden_rock());
+    EXPECT_EQ(s.hidden, 1u);
+    EXPECT_EQ(bench.build(one_rock(Vec3(0.002, 0.001, 0.03), 0.004)).hidden, 0u);
     EXPECT_LE(bench.normalisation(s), 1e-12);
     ASSERT_GT(s.cell.size(), 10u);
     for (const std::int32_t c : s.cell) EXPECT_GT(bench.mesh.centres[static_cast<std::size_t>(c)][2], 0.003);
@@ -357,6 +359,8 @@ TEST(CrampedRock, finds_room_behind_the_steel_of_a_nook) {
     const TestRocks rocks = one_rock(Vec3(-0.0545, 0.006, 0.0035), 0.018);  // 3.1e-6 m3
     Stencils stencils = bench.build(rocks);
     EXPECT_TRUE(bench.mapping.had_cramped_rock());
+    EXPECT_EQ(stencils.cramped, 1u);
+    EXPECT_EQ(stencils.hidden, 0u);
     Stencils* const all[] = {&stencils};
     const auto f = redistribute(all, rocks.volumes(), bench.mesh.volumes, 0.7, bench.serial)[0];
     EXPECT_LE(*std::max_element(f.begin(), f.end()), 0.7);
@@ -375,7 +379,7 @@ TEST(CrampedRock, moves_in_a_nook_without_a_jump) {
 
 TEST(CrampedRock, is_no_rock_beside_steel_with_room_on_its_side) {
     Bench bench(box_with_a_nook(0.012));
-    bench.build(one_rock(Vec3(-0.054, -0.0095, 0.006), 0.018));
+    EXPECT_EQ(bench.build(one_rock(Vec3(-0.054, -0.0095, 0.006), 0.018)).cramped, 0u);
     EXPECT_FALSE(bench.mapping.had_cramped_rock());
 }
 
@@ -489,6 +493,7 @@ TEST(Ranks, share_the_cells_without_a_trace) {
     std::vector<double> expected(whole.size(), 0.0);
     const Stencils stencils = stencils_of(one, rocks);
     EXPECT_TRUE(one.had_cramped_rock());
+    EXPECT_EQ(stencils.cramped, 1u);
     deposit(stencils, rocks.volumes(), expected);
     std::vector<double> expected_sample(rocks.id.size(), 0.0);
     for (std::size_t p = 0; p < rocks.id.size(); ++p)

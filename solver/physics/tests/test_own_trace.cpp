@@ -141,6 +141,8 @@ TEST(OwnTrace, follows_the_step_by_which_rock_moves_through_the_cells) {
 TEST(OwnTrace, is_bounded_where_drag_is_stiff) {
     const OwnTrace trace = own_trace(Vec3(0.01, 0.0, 0.0), Vec3::Zero(), 1.0, rock_of(0.0, 1.0), k_water_viscosity, 0.0);
     EXPECT_NEAR(trace.velocity.x(), 0.005, 1e-15);
+    EXPECT_TRUE(trace.is_limited);
+    EXPECT_FALSE(own_trace(Vec3(0.01, 0.0, 0.0), Vec3::Zero(), 1e-7, rock_of(0.0, 1.0), k_water_viscosity, 0.0).is_limited);
 }
 
 TEST(OwnTrace, does_not_move_rock_that_moves_with_the_water) {
