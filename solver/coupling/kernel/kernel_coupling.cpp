@@ -49,10 +49,8 @@ double largest_of(const std::vector<double>& solid_fraction, Communicator& commu
     return largest;
 }
 
-/// Over the cells of all ranks.
-template <typename Holds>
-int count_cells(const Holds& holds, const std::vector<double>& values, Communicator& communicator) {
-    auto count = static_cast<double>(std::count_if(values.begin(), values.end(), holds));
+int count_above(double limit, const std::vector<double>& solid_fraction, Communicator& communicator) {
+    auto count = static_cast<double>(std::count_if(solid_fraction.begin(), solid_fraction.end(), [&](double f) { return f > limit; }));
     communicator.sum(gsl::span<double>(&count, 1));
     return static_cast<int>(count);
 }
@@ -363,7 +361,7 @@ void KernelCoupling::note_fullness(const std::vector<double>& solid_fraction, do
     const double limit = settings_.kernel.max_solid_fraction;
     balance_.solid_fraction_max = largest;
     require_room(largest, settings_.kernel);
-    balance_.overfull_cells = count_cells([limit](double f) { return f > limit; }, solid_fraction, communicator_);
+    balance_.overfull_cells = count_above(limit, solid_fraction, communicator_);
     if (balance_.overfull_cells > 0)
         warn_once("overfull",
                   fmt::format("{} cells hold more than kernel.maxSolidFraction = {}, at most {:.3f}: no cell in reach has room{}",
@@ -461,7 +459,8 @@ std::vector<double> KernelCoupling::void_fraction_before(const std::vector<doubl
                                                          const std::vector<double>& present_solid) {
     const gsl::span<const double> retreat = fluid_.wall_retreat();
     const gsl::span<const double> cell_volume = mapping_.cells().volumes;
-    std::vector<double> solid_fraction = old_solid, excess(carry_.size(), 0.0), beyond(volume.size(), 0.0);
+    std::vector<double> solid_fraction = old_solid, excess(carry_.size(), 0.0);
+    std::vector<double> beyond(volume.size() + 1, 0.0);  // of each rock; the number of cells with an excess
     for (std::size_t c = 0; c < carry_.size(); ++c) {
         if (retreat[c] == 0.0 || present_solid[c] == 0.0) continue;
         const double swept = fluid_.time_step() * retreat[c] / cell_volume[c];
@@ -471,15 +470,15 @@ std::vector<double> KernelCoupling::void_fraction_before(const std::vector<doubl
         excess[c] = swept - here;
     }
     const auto is_some = [](double value) { return value != 0.0; };
-    const bool has_excess = std::any_of(excess.begin(), excess.end(), is_some);
-    balance_.limited.swept_cells = count_cells(is_some, excess, communicator_);
-    for (std::size_t p = 0; has_excess && p < present_.size(); ++p)
+    beyond.back() = static_cast<double>(std::count_if(excess.begin(), excess.end(), is_some));
+    for (std::size_t p = 0; is_some(beyond.back()) && p < present_.size(); ++p)
         for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
             const auto c = static_cast<std::size_t>(present_.cell[i]);
             if (is_some(excess[c])) beyond[p] += volume[p] * present_.deposit[i] * excess[c] * cell_volume[c];
         }
     communicator_.sum(beyond);
-    if (std::any_of(beyond.begin(), beyond.end(), is_some)) deposit(old_, beyond, solid_fraction);
+    balance_.limited.swept_cells = static_cast<int>(beyond.back());
+    if (balance_.limited.swept_cells > 0) deposit(old_, beyond, solid_fraction);
     return void_fraction_of(solid_fraction);
 }
 
