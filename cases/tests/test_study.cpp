@@ -492,7 +492,8 @@ TEST(Study, warns_of_kernels_that_average_over_mouth_or_gap) {
 
 TEST(Study, warns_of_a_drag_that_counts_other_rock_twice_or_not_at_all) {
     const auto warnings = [](const std::string& closures, const std::string& feed) {
-        return warnings_of(with_feed(feed + "count = 3\n", "diameter_m = 0.004\n") + "[closures]\n" + closures);
+        const std::string rock = with_feed(feed + "count = 3\n", "diameter_m = 0.004\n");
+        return warnings_of(rock + "[mesh]\npreset = \"paper\"\n[closures]\n" + closures);  // cells in which its kernel is narrow
     };
     EXPECT_TRUE(warnings("", "").empty());
     EXPECT_TRUE(any_contains(warnings("drag_modifier = 3\n", ""), "counts it twice"));

@@ -104,8 +104,8 @@ TEST(ReplayEstimate, by_hand) {
     EXPECT_NEAR(estimate.spillage, 0.9 + 0.04, 1e-12);
     EXPECT_NEAR(estimate.replays.variance, 0.01, 1e-12);
     EXPECT_NEAR(estimate.corrections.variance, 0.0002, 1e-12);
-    // Welch: (0.01/3 + 0.0002/2)^2 / ((0.01/3)^2/2 + (0.0002/2)^2/1) = 2.1187 degrees of freedom, t = 4.0850
-    EXPECT_NEAR(*estimate.interval, 4.085 * std::sqrt(0.01 / 3.0 + 0.0001), 0.005);
+    // Student's factors of two and of one degree of freedom.
+    EXPECT_NEAR(*estimate.interval, std::hypot(4.302653 * std::sqrt(0.01 / 3.0), 12.706205 * std::sqrt(0.0002 / 2.0)), 1e-6);
 }
 
 FedHead head(double fed, double delivered, double spilled, bool is_steady) {

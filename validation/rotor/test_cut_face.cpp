@@ -116,7 +116,7 @@ void write_run(const fs::path& folder, const CutFaceRun& run) {
     inputs.times.write_interval = std::min(run.end, run.checkpoint_interval);  // steps end at checkpoints
     inputs.checkpoint.interval = run.checkpoint_interval;
     inputs.hauling = run.hauling;
-    inputs.bank = true;
+    inputs.bank_permeability = 0.0;
     inputs.fates.mouth.centre = Vec3(0.0, 0.0, 0.03);
     inputs.fates.mouth.radius = 0.32;
     inputs.fates.mouth.depth = 0.055;

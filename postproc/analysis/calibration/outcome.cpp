@@ -244,7 +244,7 @@ std::string known_text(const Outcome& outcome, std::size_t parameter) {
     const Range& range = outcome.calibration.ranges[parameter];
     const double value = outcome.parameters[k], likeliest = outcome.estimate->likeliest[k];
     std::string text = interval_text(*interval, range, value);
-    if (interval->determined() && (value < interval->low || value > interval->high))
+    if (outcome.is_fitted_minimum && interval->determined() && (value < interval->low || value > interval->high))
         text += "; the answer lies outside, as its objective weighs the targets otherwise";
     if (outcome.is_fitted_minimum && std::abs(value - likeliest) <= k_same_place * (interval->high - interval->low)) return "95 %: " + text;
     return fmt::format("95 % by the quadratic fit, least at {:.4g}: {}", likeliest, text);

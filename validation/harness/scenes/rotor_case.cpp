@@ -51,7 +51,7 @@ void write_rotor_beside_bank(const std::filesystem::path& folder, cases::CaseInp
     inputs.discharge = 0.1;
     inputs.gravity = cases::gravity_of(k_inclination);
     inputs.hauling = Vec3(0.0, -0.1, 0.0);
-    inputs.bank = true;
+    inputs.bank_permeability = 0.0;
     inputs.fates.mouth.centre = Vec3(0.0, 0.0, 0.03);  // of the outlet ring in the top, which is the mouth
     inputs.fates.mouth.radius = 0.32;
     inputs.fates.mouth.depth = 0.055;
