@@ -23,6 +23,8 @@ constexpr double k_cell = 0.02, k_length = 20.0 * k_cell;  // [m]
 constexpr double k_place = 0.03, k_width = 0.04;           // of a cloud's centre from its wall, and its width [m]
 constexpr double k_most = 0.3;                             // solid fraction in it
 constexpr int k_steps = 5;
+// OpenFOAM ends a run in a closed domain in which all flow relative to the mesh is rounding.
+constexpr double k_hardly_faster = 1.001;
 
 /// Full of water that has the speed `water` along it. \param travel  of a step, over a cell
 std::filesystem::path travelling_box(const std::string& name, double travel, double water) {
@@ -126,7 +128,7 @@ TEST(SweptRock, OfAUniformSolidFractionLeavesTheVelocityUniform) {
 // hundredth of a cell in a step, and all have the error of linear interpolation, (change of alpha from cell to cell)^2 / (4 alpha^2) =
 // 4e-3.
 TEST(SweptRock, LeavesTheFlowPastItAlone) {
-    FluidRun run(travelling_box("swept_clouds", 0.1, k_speed), true);
+    FluidRun run(travelling_box("swept_clouds", 0.1, k_hardly_faster * k_speed), true);
     for (int n = 0; n < k_steps; ++n) {
         run.begin();
         const Field solid = sum(cloud(run, -0.5 * k_length), cloud(run, 0.5 * k_length));
@@ -138,7 +140,7 @@ TEST(SweptRock, LeavesTheFlowPastItAlone) {
 
 /// Of a step in which the cells at the ends are taken this share of what is swept, and the clouds the rest.
 double error_of_flow_with(const std::string& name, double travel, double share) {
-    FluidRun run(travelling_box(name, travel, k_speed), true);
+    FluidRun run(travelling_box(name, travel, k_hardly_faster * k_speed), true);
     run.begin();
     Field solid(run.cells(), 0.0), before(solid);
     for (const double wall : {-0.5 * k_length, 0.5 * k_length}) {
