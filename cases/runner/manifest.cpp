@@ -8,8 +8,8 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
-#include "geometry/base/replaced_starts.hpp"
 #include "geometry/base/run_files.hpp"
+#include "geometry/base/statistics/replaced_starts.hpp"
 #include "postproc/run/solver_starts.hpp"
 
 namespace cutterflow::cases {

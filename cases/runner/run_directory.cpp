@@ -15,8 +15,8 @@
 
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
-#include "geometry/base/replaced_starts.hpp"
 #include "geometry/base/run_files.hpp"
+#include "geometry/base/statistics/replaced_starts.hpp"
 
 namespace cutterflow::cases {
 namespace {

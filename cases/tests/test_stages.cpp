@@ -15,7 +15,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/process/child_process.hpp"
-#include "geometry/base/replaced_starts.hpp"
+#include "geometry/base/statistics/replaced_starts.hpp"
 
 using namespace cutterflow;
 using namespace cutterflow::cases;

@@ -7,8 +7,8 @@
 
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
-#include "geometry/base/replaced_starts.hpp"
 #include "geometry/base/run_files.hpp"
+#include "geometry/base/statistics/replaced_starts.hpp"
 #include "postproc/run/run_table.hpp"
 
 namespace cutterflow::postproc {

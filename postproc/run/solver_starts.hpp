@@ -16,7 +16,7 @@ std::vector<std::string> first_warnings(std::vector<std::string> warnings);
 
 /// Processor time of all ranks over all starts of a run [s], as their cost.json have it. A start that did not come to its end has none: its
 /// part is the wall time of its steps times the ranks of the last start that told its own. Of a start whose tables another one replaced it
-/// is what was noted then (geometry/base/replaced_starts.hpp).
+/// is what was noted then (geometry/base/statistics/replaced_starts.hpp).
 /// \return nothing while no start came to its end
 /// \throws UserError  when a cost.json, a cost.csv or replaced_starts.csv breaks its contract
 std::optional<double> solver_core_seconds(const std::filesystem::path& run);

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/file_content.hpp"
-#include "geometry/base/replaced_starts.hpp"
 #include "geometry/base/run_files.hpp"
+#include "geometry/base/statistics/replaced_starts.hpp"
 #include "geometry/head/axial_bins.hpp"
 #include "solver/observe/velocity/velocity_tables.hpp"
 

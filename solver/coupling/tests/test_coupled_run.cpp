@@ -11,8 +11,8 @@
 
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
-#include "geometry/base/replaced_starts.hpp"
 #include "geometry/base/sphere.hpp"
+#include "geometry/base/statistics/replaced_starts.hpp"
 #include "solver/coupling/coupled_run.hpp"
 #include "solver/coupling/coupling_methods.hpp"
 #include "solver/coupling/dry/no_fluid.hpp"

@@ -1,4 +1,4 @@
-#include "geometry/base/replaced_starts.hpp"
+#include "geometry/base/statistics/replaced_starts.hpp"
 
 #include <string>
 #include <vector>
