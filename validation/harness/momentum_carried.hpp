@@ -3,9 +3,9 @@
 ///
 /// A step lays X, what rock hands over, and half of what was owed, K/2. Where the water takes the share t of that, K becomes
 /// K/2 + (1 - t)(X + K/2), for a steady X  K = 2 (1 - t)/t X: less than X from t = 2/3 on, without end for t = 0. Of a water that does take
-/// it only what drag and added mass lag behind in a step is owed. |X| is at most the turnover, but for rock that a contact stops: its
-/// added mass hands over some ten times the turnover in that step, and what is owed of it goes by halves. So the largest value is bound
-/// where no rock hits anything, and the median of the steps with rock everywhere.
+/// it only what drag and added mass lag behind in a step is owed. |X| is at most the turnover, but where a
+/// step has no part in how much it is: rock that a contact stops, or that sets off at once and pushes the water aside. What is owed of
+/// such a blow goes by halves. So the largest value is bound where there are none, and the median of the steps with rock everywhere.
 #include <algorithm>
 #include <cmath>
 #include <limits>
