@@ -45,9 +45,47 @@ END {
   printf "\"rate\": {\"value\": %.10g}, \"none\": {\"value\": null}}\n", 40 - 25*mu + 0.5*chance(4)
 }' "$2" > "$4/report/measures.json"
 stage() { echo "{\"state\": \"done\", \"inputs\": {}, \"outputs\": {}, \"wall_s\": 1.0, \"core_s\": $1, \"finished\": \"\"}"; }
-stages="{\"case\": $(stage 6.0), \"run\": $(stage 30.0)}"
+stages="{\"case\": $(stage 6.0), \"run\": $(stage 30.0), \"report\": $(stage 0.0)}"
 echo "{\"schema\": \"cutterflow.manifest/1\", \"stages\": $stages, \"versions\": {}}" > "$4/manifest.json"
 )sh";
+
+/// Slurm in the search path for as long as the object lives. sbatch takes the elements of an array in the background, in turn; squeue
+/// answers once none is left.
+class SchedulerOfScripts {
+public:
+    explicit SchedulerOfScripts(const fs::path& folder) : folder_(folder), search_path_(std::getenv("PATH")) {
+        const auto stand_in = [&](const char* name, const std::string& script) {
+            write_file(folder_ / name, "#!/bin/sh\ncd " + folder_.string() + " || exit 1\n" + script);
+            fs::permissions(folder_ / name, fs::perms::owner_all);
+        };
+        // $1 --parsable, $2 the script
+        stand_in("sbatch", R"sh(job=$(($(ls -d job_* 2>/dev/null | wc -l) + 1))
+mkdir job_$job
+elements() {
+  for element in $(seq 0 $(sed -n 's/^#SBATCH --array=0-//p' "$1")); do SLURM_ARRAY_TASK_ID=$element SLURM_ARRAY_JOB_ID=$job sh "$1"; done
+  touch job_$job/ended
+}
+elements "$2" > /dev/null 2>&1 &
+echo $job
+)sh");
+        stand_in("squeue", R"sh(for word in "$@"; do case $word in (--jobs=*) job=${word#--jobs=};; esac; done
+[ -d "job_$job" ] || { echo "slurm_load_jobs error: Invalid job id specified" >&2; exit 1; }
+until [ -e "job_$job/ended" ]; do sleep 0.02; done
+)sh");
+        ::setenv("PATH", (folder_.string() + ":" + search_path_).c_str(), 1);
+    }
+    ~SchedulerOfScripts() { ::setenv("PATH", search_path_.c_str(), 1); }
+
+    std::size_t jobs() const {
+        std::size_t count = 0;
+        while (fs::exists(folder_ / fmt::format("job_{}", count + 1))) ++count;
+        return count;
+    }
+
+private:
+    fs::path folder_;
+    std::string search_path_;
+};
 
 double angle(double mu) {
     return 15.0 + 20.0 * mu - 8.0 * mu * mu;
@@ -91,12 +129,12 @@ protected:
         return folder_ / "calibration.toml";
     }
 
-    CalibrateSettings settings(bool resume = false) const {
-        return {folder_ / "calibration.toml", folder_ / "out", folder_ / "program", 1, 2, resume, Launcher::local, access()};
+    CalibrateSettings settings(bool resume = false, Launcher launcher = Launcher::local) const {
+        return {folder_ / "calibration.toml", folder_ / "out", folder_ / "program", 1, 2, resume, launcher, access()};
     }
 
-    postproc::calibration::Outcome run(bool resume = false) {
-        const CalibrateSettings how = settings(resume);
+    postproc::calibration::Outcome run(bool resume = false, Launcher launcher = Launcher::local) {
+        const CalibrateSettings how = settings(resume, launcher);
         const CalibrationFile file = begin_calibration(how);
         return run_calibration(file, how, [this](const std::string& line) { lines_ += line + "\n"; });
     }
@@ -245,6 +283,26 @@ TEST_F(Calibrate, makes_no_run_twice_when_resumed) {
     const std::size_t runs = made();
     EXPECT_EQ(to_json(run(true)).dump(), whole.dump());
     EXPECT_EQ(made(), runs);
+}
+
+TEST_F(Calibrate, by_a_scheduler_is_that_of_this_machine) {
+    // One run of the grid fails: its repeat is left out.
+    set_program(R"(case $4 in *friction_0.3_*3000_repeat2) exit 3;; esac)");
+    write(calibration_text("study = [\"heap.toml\"]\nrounds = 1", angle_target() + k_rate));
+    const auto local = run();
+    const std::size_t made_here = made();
+    fs::remove_all(folder_ / "out");
+    fs::remove(folder_ / "made");
+    lines_.clear();
+
+    const SchedulerOfScripts scheduler(folder_ / "scheduler");
+    const auto scheduled = run(false, Launcher::slurm);
+    EXPECT_GT(scheduled.calibration.evaluations.size(), 15u) << "the grid and places of a round";
+    EXPECT_EQ(scheduled.calibration.cost.failed_runs, 1u);
+    EXPECT_THAT(lines_, AllOf(HasSubstr("job 1: run of 45 point(s)"), HasSubstr("repeat2: its job ended without a report")));
+    EXPECT_EQ(to_json(scheduled).dump(), to_json(local).dump());
+    EXPECT_EQ(scheduler.jobs(), 3u) << "the grid, the round, the answer";
+    EXPECT_EQ(made(), made_here) << "every run was made once";
 }
 
 TEST_F(Calibrate, optimiser_goes_on_where_it_was) {
