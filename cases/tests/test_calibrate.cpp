@@ -49,8 +49,8 @@ stages="{\"case\": $(stage 6.0), \"run\": $(stage 30.0), \"report\": $(stage 0.0
 echo "{\"schema\": \"cutterflow.manifest/1\", \"stages\": $stages, \"versions\": {}}" > "$4/manifest.json"
 )sh";
 
-/// Slurm in the search path for as long as the object lives. sbatch takes the elements of an array in the background, in turn; squeue
-/// answers once none is left.
+/// Slurm in the search path for as long as the object lives. sbatch takes the elements of an array in turn; squeue answers once none is
+/// left.
 class SchedulerOfScripts {
 public:
     explicit SchedulerOfScripts(const fs::path& folder) : folder_(folder), search_path_(std::getenv("PATH")) {

@@ -2,14 +2,13 @@
 /// second revolution; from its checkpoint it is run on without rock and recorded, and again with one rock, which is released within the
 /// recorded revolution: what of the flow changes from one revolution to the next is the same for both.
 ///
-/// What was expected to differ, for a rock of 8 mm and 1050 kg/m3 that slips by s = 0.1 m/s (drag D s = 1.4e-4 N), laid with sigma = 0.05
-/// m:
+/// What was expected to differ, for a rock of 8 mm and 1050 kg/m3 that slips by s = 0.1 m/s (drag D s = 1.4e-4 N), laid with sigma =
+/// 0.05 m:
 ///   its wake, which is not in the replay    D/(20 rho s sigma^2) of the slip: 0.03 %, most of which own_trace takes out of the coupled one
 ///   water that makes way for it             V/(30 sigma^3) of the slip: 0.01 %
 ///   the flow between phases                 (n 2.5 deg)^2 5/24 of the n-th wave of a turn: 0.2 % of that of two blades
-///   the length of steps                     a rock feels the flow of a step's beginning, here for 12.5 ms instead of 2.8: it lags by half
-///   the
-///                                           difference, 5 ms of a way of 0.8 s                                         0.6 % of the way
+///   the length of steps                     a rock feels the flow of a step's beginning, here for 12.5 ms instead of 2.8: it lags by
+///                                           half the difference, 5 ms of a way of 0.8 s: 0.6 % of the way
 ///   one node that looks past steel          0.7 % of the slip in the mean of a head's rocks
 /// In all 1 % of the way, of which the rock's own doing is less than a twentieth. 0.49 % came, 1.3 % of the speed. Where the view is cut by
 /// steel that is hardly thicker than a cell of this coarse mesh, one node counts for more: 14 % of the way of a rock that began 20 mm
