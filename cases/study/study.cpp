@@ -736,6 +736,7 @@ void warn_of_wide_kernels(const ParameterValues& resolved, const HeadSize& head,
         if (has_size_law(feed)) largest = std::max(largest, feed.number("feed.size_max_m"));
         for (const ParameterValues& rock : feed.tables("feed.class")) largest = std::max(largest, rock.number("feed.class.diameter_m"));
     }
+    if (largest == 0.0) return;
     const coupling::KernelSettings kernel = k_kernel_section.read(resolved);
     const double cell = k_cell_at_rock * meshing::mesh_preset(resolved.text("mesh.preset")).cell_size * head.ring_radius;
     for (const char* key : {"suction.mouth_radius_m", "suction.gap_m"})

@@ -479,6 +479,7 @@ TEST(Study, warns_of_kernels_that_average_over_mouth_or_gap) {
     EXPECT_TRUE(any_contains(warnings(shell, "0.02"), "suction.gap_m = 0.03. It is 1.5 times the kernel width"));
     EXPECT_FALSE(any_contains(warnings("", "0.02"), "suction.mouth_radius_m"));
     EXPECT_TRUE(any_contains(warnings("", "0.02"), "are spread past the opening. Compare with kernel.gamma = 0.5"));
+    EXPECT_FALSE(any_contains(warnings_of(minimal()), "times the kernel width")) << "there is no rock";
     // Draft cells of 0.387 x 0.075 x 0.4 m make the kernel of small rock 17.4 mm wide.
     EXPECT_TRUE(
         any_contains(warnings(shell, "0.00425"), "suction.mouth_radius_m = 0.1. It is 5.7 times the kernel width in cells of 0.012 m"));
