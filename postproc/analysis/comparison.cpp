@@ -14,7 +14,6 @@
 #include "geometry/base/statistics/sample.hpp"
 #include "postproc/analysis/best_speed.hpp"
 #include "postproc/analysis/choices.hpp"
-#include "postproc/analysis/dredging.hpp"
 #include "postproc/analysis/not_modelled.hpp"
 #include "postproc/analysis/settings/distinct_runs.hpp"
 #include "postproc/analysis/text.hpp"
@@ -218,9 +217,7 @@ std::vector<QuantityRule> fed_rules() {
         {"residence_time_s", "time of delivered rock from cut to mouth", "s", true,
          of_work([](const Dredging& work) { return work.residence_time; })},
         {"waiting_time_s", "of that, until it found a place, mean of all rock", "s", true,
-         [](const ComparedRun& r) {
-             return r.results.fed ? plain(waiting_time(*r.results.fed, r.run.operating_point.revolution_s())) : Estimate{};
-         }},
+         of_work([](const Dredging& work) { return work.waiting_time; })},
         {"largest_delivered_m", "largest rock delivered", "m", true, of_work([](const Dredging& work) { return work.largest_delivered; })},
         {"ratio", "spillage: 1 - delivered / fed", "-", true, of([](const FedHead& head) { return spillage_of(head.production); })},
         {"spillage_with_fines", "spillage of rock and fines, these as neutral rock", "-", true,

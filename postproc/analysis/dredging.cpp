@@ -12,9 +12,8 @@
 namespace cutterflow::postproc {
 namespace {
 
-/// Of delivered rock: how long it was on its way, and its sizes. Events tell of it once it has found a place.
-/// \param waiting  from its cut until then, in the mean [s]
-void follow_delivered(const Table& events, const Production& window, double waiting, Dredging& dredging) {
+/// Of delivered rock: how long it was on its way, and its sizes. Events tell of it once it has found a place. \pre dredging.waiting_time
+void follow_delivered(const Table& events, const Production& window, Dredging& dredging) {
     std::map<int, double> fed;
     double mass = 0.0, mass_time = 0.0, largest = 0.0;
     for (std::size_t row = 0; row < events.rows(); ++row) {
@@ -31,7 +30,7 @@ void follow_delivered(const Table& events, const Production& window, double wait
         fed.erase(start);
     }
     if (!(mass > 0.0)) return;
-    dredging.residence_time = waiting + mass_time / mass;
+    dredging.residence_time = dredging.waiting_time + mass_time / mass;
     dredging.largest_delivered = largest;
 }
 
@@ -124,7 +123,8 @@ Dredging dredging_of(const Results& results, const RunData& run) {
 
     Dredging dredging;
     dredging.layer_share = run.feed ? run.feed->left_share : 0.0;
-    follow_delivered(run.rock->events, window, waiting_time(*results.fed, point.revolution_s()), dredging);
+    dredging.waiting_time = results.fed->owed_share * point.revolution_s();
+    follow_delivered(run.rock->events, window, dredging);
     dredging.ways_out = ways_out_of(results);
 
     const double of_soil = (1.0 - dredging.layer_share) * window.fed / point.rock_share;  // cut, rock and fines [kg]
@@ -151,10 +151,6 @@ Dredging dredging_of(const Results& results, const RunData& run) {
     if (results.rotor.power) dredging.energy = results.rotor.power->mean / *dredging.delivered_in_situ;
     if (dredging.cutting_power) dredging.cutting_energy = *dredging.cutting_power / *dredging.delivered_in_situ;
     return dredging;
-}
-
-double waiting_time(const FedHead& head, double revolution) {
-    return head.owed_share * revolution;
 }
 
 std::vector<std::string> outside_usual_practice(const Results& results, const RunData& run) {

@@ -13,10 +13,6 @@ namespace cutterflow::postproc {
 /// \pre results.fed
 Dredging dredging_of(const Results& results, const RunData& run);
 
-/// Mean time that rock waits from its cut until it finds a place [s], by Little's law: mean mass owed over the rate at which it is fed,
-/// both in the window. Of a queue that grows it is less than what the last of its rock waits. \param revolution  [s]
-double waiting_time(const FedHead& head, double revolution);
-
 /// What of a head at work lies outside of usual practice in the prototype (geometry/base/at_work); mixture and spillage once they are
 /// steady. None of a run without a bank and a cut face.
 std::vector<std::string> outside_usual_practice(const Results& results, const RunData& run);

@@ -306,8 +306,7 @@ json fed_json(const FedHead& head, const Dredging& dredging) {
     return object;
 }
 
-json dredging_json(const Dredging& dredging, const FedHead& head, double revolution) {
-    const Losses& losses = head.losses;
+json dredging_json(const Dredging& dredging, const Losses& losses) {
     json object{{"cut_in_situ_m3_h", dredging.cut_in_situ ? json(3600.0 * *dredging.cut_in_situ) : json(nullptr)},
                 {"left_by_swing_before_share", dredging.layer_share},
                 {"spilled_mixing_share", losses.mixing},
@@ -323,7 +322,7 @@ json dredging_json(const Dredging& dredging, const FedHead& head, double revolut
                 {"cutting_energy_j_m3", or_null(dredging.cutting_energy)},
                 {"spillage_with_fines", or_null(dredging.spillage_with_fines)},
                 {"residence_time_s", or_null(dredging.residence_time)},
-                {"waiting_time_s", waiting_time(head, revolution)},
+                {"waiting_time_s", dredging.waiting_time},
                 {"largest_delivered_m", or_null(dredging.largest_delivered)}};
     object["ways_out"] = nullptr;
     if (const auto& ways = dredging.ways_out)
@@ -551,8 +550,7 @@ json results_json(const Results& results, const RunData& run) {
                           {"well_mixed_spillage", of_mixing(&Mixing::well_mixed_spillage)},
                           {"balance_error", results.mixing ? or_null(results.mixing->balance_error) : json(nullptr)}};
     document["production"] = results.fed ? fed_json(*results.fed, *results.dredging) : json(nullptr);
-    document["dredging"] =
-        results.dredging ? dredging_json(*results.dredging, *results.fed, run.operating_point.revolution_s()) : json(nullptr);
+    document["dredging"] = results.dredging ? dredging_json(*results.dredging, results.fed->losses) : json(nullptr);
     document["steel_work"] = steel_work_json(results.steel);
     document["outside_usual_practice"] = results.outside_usual_practice;
     document["recorded_flow"] = run.flow ? recorded_flow_json(*run.flow) : json(nullptr);

@@ -90,9 +90,12 @@ struct Dredging {
     std::optional<double> energy;               ///< of the drive for flow and rock, per delivered volume of soil [J/m3]
     std::optional<double> cutting_energy;       ///< of cutting, per delivered volume of soil [J/m3]
     std::optional<double> spillage_with_fines;  ///< fines spilled as neutral rock: ((1 - P) fed + S_mix fines) / (fed + fines)
-    std::optional<double> residence_time;       ///< from cut to mouth: waiting_time, and mean of delivered rock [s]
-    std::optional<double> largest_delivered;    ///< diameter [m]
-    std::optional<WaysOut> ways_out;            ///< none while nothing was spilled or the outflow is unknown
+    /// Mean time that rock waits from its cut until it finds a place [s], by Little's law: mean mass owed over the rate at which it is fed,
+    /// both in the window. Of a queue that grows it is less than what the last of its rock waits.
+    double waiting_time = 0.0;
+    std::optional<double> residence_time;     ///< from cut to mouth: waiting_time, and mean of delivered rock [s]
+    std::optional<double> largest_delivered;  ///< diameter [m]
+    std::optional<WaysOut> ways_out;          ///< none while nothing was spilled or the outflow is unknown
 };
 
 /// What the suction pipe carries.

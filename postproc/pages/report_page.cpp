@@ -229,7 +229,7 @@ std::string production_table(const Results& results, const RunData& run) {
         {"energy for flow and rock, per delivered m³ in situ", "MJ/m³", times(1e-6, dredging.energy), 1.0},
         {"energy of cutting, per delivered m³ in situ", "MJ/m³", times(1e-6, dredging.cutting_energy), 0.0},
         {"time of delivered rock from cut to mouth, mean", "s", dredging.residence_time, 0.5},
-        {"of that, until it found a place before a blade, mean of all rock", "s", waiting_time(*results.fed, point.revolution_s()), 0.5},
+        {"of that, until it found a place before a blade, mean of all rock", "s", dredging.waiting_time, 0.5},
         {"largest rock delivered", "mm", times(1e3, dredging.largest_delivered), 1.0}};
     const bool has_prototype = point.length_ratio != 1.0;
     std::vector<std::vector<std::string>> rows;

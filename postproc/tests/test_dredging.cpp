@@ -330,7 +330,7 @@ TEST(Dredging, counts_the_wait_for_a_place_to_the_time_from_cut_to_mouth) {
     testing::add_events(directory, {{10.0, 105, "feed", "in", ""}, {12.0, 105, "mouth", "in", ""}});
     const RunData run = read_run(directory);
     const Results results = compute_results(run);
-    EXPECT_NEAR(waiting_time(*results.fed, run.operating_point.revolution_s()), 0.2, 1e-6);
+    EXPECT_NEAR(results.dredging->waiting_time, 0.2, 1e-6);
     ASSERT_TRUE(results.dredging->residence_time);
     EXPECT_NEAR(*results.dredging->residence_time, 2.2, 1e-6);
     const nlohmann::json written = results_json(results, run).at("dredging");
