@@ -6,6 +6,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "geometry/base/statistics/sample.hpp"
+
 namespace cutterflow::geometry {
 namespace {
 
@@ -99,9 +101,7 @@ double middle_angle(const std::vector<BladeSlice>& blades) {
     std::vector<double> angles;
     for (const BladeSlice& slice : blades)
         if (slice.coverage < 1.0) angles.push_back(slice.angle);
-    if (angles.empty()) return 0.0;
-    std::nth_element(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2), angles.end());
-    return angles[angles.size() / 2];
+    return angles.empty() ? 0.0 : median(std::move(angles));
 }
 
 std::string blades_text(const std::vector<BladeSlice>& blades) {

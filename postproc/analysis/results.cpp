@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/statistics/sample.hpp"
 #include "postproc/analysis/dredging.hpp"
 #include "postproc/analysis/not_modelled.hpp"
 #include "postproc/analysis/steel/steel_work.hpp"
@@ -165,9 +166,7 @@ std::optional<double> median_carried(const Table& balance) {
         if (balance.number("rocks")[i] > 0.0 && !std::isnan(carried)) values.push_back(carried);
     }
     if (values.empty()) return std::nullopt;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return median(std::move(values));
 }
 
 Conservation worst_balance(const Table& balance, bool with_rock) {

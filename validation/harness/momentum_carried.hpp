@@ -6,12 +6,14 @@
 /// it only what drag and added mass lag behind in a step is owed. |X| is at most the turnover, but where a
 /// step has no part in how much it is: rock that a contact stops, or that sets off at once and pushes the water aside. What is owed of
 /// such a blow goes by halves. So the largest value is bound where there are none, and the median of the steps with rock everywhere.
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "geometry/base/statistics/sample.hpp"
 
 namespace cutterflow::validation {
 
@@ -25,10 +27,7 @@ inline double median_carried(const std::map<std::string, std::vector<double>>& b
         if (std::isnan(carried[i])) return std::numeric_limits<double>::quiet_NaN();
         if (rocks[i] > 0.0) with_rock.push_back(carried[i]);
     }
-    if (with_rock.empty()) return 0.0;
-    const auto middle = with_rock.begin() + static_cast<std::ptrdiff_t>(with_rock.size() / 2);
-    std::nth_element(with_rock.begin(), middle, with_rock.end());
-    return *middle;
+    return with_rock.empty() ? 0.0 : median(std::move(with_rock));
 }
 
 }  // namespace cutterflow::validation

@@ -1,5 +1,6 @@
 #include "geometry/base/statistics/sample.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <boost/math/distributions/students_t.hpp>
@@ -27,6 +28,12 @@ Sample sample_of(const std::vector<double>& values) {
     for (const double value : values) sample.variance += (value - sample.mean) * (value - sample.mean);
     if (sample.count > 1) sample.variance /= static_cast<double>(sample.count - 1);
     return sample;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 double standard_error(const Sample& sample) {

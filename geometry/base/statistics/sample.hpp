@@ -13,6 +13,9 @@ struct Sample {
 
 Sample sample_of(const std::vector<double>& values);
 
+/// The middle one of the values in their order; of an even number the upper of the two in the middle. \pre one value or more
+double median(std::vector<double> values);
+
 /// Of the mean. \pre one value or more
 double standard_error(const Sample& sample);
 
