@@ -16,6 +16,7 @@
 #include "cases/scenes/cutter/cut_face_feed.hpp"
 #include "cases/scenes/cutter/feed.hpp"
 #include "cases/testing/tiny_rotor_mesh.hpp"
+#include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/sphere.hpp"
@@ -378,25 +379,13 @@ TEST(CutFace, of_a_head_that_travels_slowly_stays_calm) {
 
 class KilledFeed : public ::testing::TestWithParam<int> {};
 
-std::vector<std::string> fields_of(const std::string& line) {
-    std::vector<std::string> fields;
-    std::istringstream stream(line);
-    for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
-    return fields;
-}
-
 /// The ledger over all starts of a run.
 Table ledger_of_all_starts(const fs::path& folder) {
-    std::ifstream first(folder / "postProcessing/rock/0/ledger.csv");
-    std::string header;
-    std::getline(first, header);
-    const std::vector<std::string> names = fields_of(header);
-    Table table;
-    for (const std::string& row : rows_of_all_starts(folder / "postProcessing/rock", "ledger.csv")) {
-        const std::vector<std::string> values = fields_of(row);
-        for (std::size_t i = 0; i < names.size(); ++i) table[names[i]].push_back(std::stod(values.at(i)));
-    }
-    return table;
+    Table all;
+    for (const fs::path& start : time_folders(folder / "postProcessing/rock"))
+        for (const auto& [name, values] : read_columns(start / "ledger.csv"))
+            all[name].insert(all[name].end(), values.begin(), values.end());
+    return all;
 }
 
 TEST_P(KilledFeed, resumes_with_every_kilogram_where_it_was) {

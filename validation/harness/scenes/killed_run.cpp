@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <fstream>
-#include <map>
 #include <stdexcept>
 #include <thread>
 
@@ -65,16 +64,9 @@ void run_and_kill_after(const fs::path& folder, const std::string& checkpoint, i
 }
 
 std::vector<std::string> rows_of_all_starts(const fs::path& tables, const std::string& file) {
-    std::map<double, fs::path> starts;
-    for (const auto& entry : fs::directory_iterator(tables)) {
-        char* end = nullptr;
-        const std::string name = entry.path().filename().string();
-        const double start = std::strtod(name.c_str(), &end);
-        if (*end == '\0') starts[start] = entry.path() / file;
-    }
     std::vector<std::string> rows;
-    for (const auto& [start, path] : starts) {
-        std::ifstream stream(path);
+    for (const fs::path& start : time_folders(tables)) {
+        std::ifstream stream(start / file);
         std::string line;
         std::getline(stream, line);
         while (std::getline(stream, line)) rows.push_back(line);

@@ -16,6 +16,7 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/parameters/parameter.hpp"
 #include "geometry/base/process/child_process.hpp"
+#include "geometry/base/process/stop_signals.hpp"
 #include "geometry/base/progress.hpp"
 
 namespace cutterflow::validation {
@@ -242,8 +243,8 @@ private:
 
 /// Whether a signal that programs do not send themselves ended it: a kill by hand, a shutdown, too little memory.
 bool was_stopped(const ChildResult& ended) {
-    const int signals[] = {SIGHUP, SIGINT, SIGKILL, SIGTERM};
-    return std::any_of(std::begin(signals), std::end(signals), [&](int number) { return ended.exit_code == 128 + number; });
+    const auto ended_by = [&](int signal) { return ended.exit_code == 128 + signal; };
+    return ended_by(SIGKILL) || std::any_of(k_stop_signals.begin(), k_stop_signals.end(), ended_by);
 }
 
 /// Runs one case's program. What it wrote is read back; how it ended is a reason when there is nothing to read.
