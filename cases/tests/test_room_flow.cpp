@@ -11,6 +11,7 @@
 #include "cases/scenes/room/room_flow.hpp"
 #include "cases/scenes/room/room_mesh.hpp"
 #include "cases/scenes/room/room_prediction.hpp"
+#include "cases/testing/stone.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -24,7 +25,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const char* const k_tank = R"(
+const std::string k_tank = R"(
 [scene]
 kind = "room"
 [room]
@@ -38,18 +39,7 @@ from_m = [0, 0, 0.1]
 to_m = [0, 0, 0.3]
 inner_radius_m = 0.04
 wall_m = 0.01
-[[material]]
-name = "stone"
-youngs_modulus_pa = 1e7
-[[contact]]
-pair = ["stone", "stone"]
-friction = 0.5
-restitution = 0.8
-[[contact]]
-pair = ["stone", "steel"]
-friction = 0.4
-restitution = 0.8
-[[grains]]
+)" + test::k_stone + R"([[grains]]
 name = "stones"
 material = "stone"
 density_kg_m3 = 2650
@@ -106,7 +96,7 @@ protected:
 };
 
 TEST_F(RoomFlow, boundaries_are_patches_with_conditions_of_every_field) {
-    const RoomRequest room = request(std::string(k_tank) + k_out + k_free);
+    const RoomRequest room = request(k_tank + k_out + k_free);
     EXPECT_THAT(condition(room, "U", "out"), HasSubstr("flowRateOutletVelocity"));
     EXPECT_THAT(condition(room, "U", "out"), HasSubstr("volumetricFlowRate"));
     EXPECT_THAT(condition(room, "U", "free"), HasSubstr("pressureInletOutletVelocity"));
@@ -126,7 +116,7 @@ TEST_F(RoomFlow, boundaries_are_patches_with_conditions_of_every_field) {
 
 /// Discharge: mean speed times the exact area of the bore, grown from a thousandth of it.
 TEST_F(RoomFlow, discharge_is_speed_times_area) {
-    const RoomRequest room = request(std::string(k_tank) + k_out + k_free);
+    const RoomRequest room = request(k_tank + k_out + k_free);
     const auto& flow = std::get<ThroughFlow>(room.scene.boundaries[0].flow);
     EXPECT_NEAR(flow.area, k_pi * 1.6e-3, 1e-12);
     EXPECT_FALSE(flow.into_room);
@@ -134,7 +124,7 @@ TEST_F(RoomFlow, discharge_is_speed_times_area) {
     EXPECT_THAT(condition(room, "U", "out"), ContainsRegex("\\(\\(0 7\\.53982236861550*[0-9]*e-06\\) \\(0\\.5 0\\.0075398223686155"));
     EXPECT_EQ(outlet_patch(room.scene), "out");
 
-    const RoomRequest given = request(std::string(k_tank) +
+    const RoomRequest given = request(k_tank +
                                       "[[boundary]]\non = \"x_min\"\nname = \"in\"\nflow = { inflow_m3_s = 0.003 }\n"
                                       "[[boundary]]\non = \"x_max\"\nflow = \"pressure\"\n");
     const auto& inflow = std::get<ThroughFlow>(given.scene.boundaries[0].flow);
@@ -148,7 +138,7 @@ TEST_F(RoomFlow, discharge_is_speed_times_area) {
 /// k_out grows for half a second.
 TEST_F(RoomFlow, grains_at_rest_end_no_run_whose_flow_still_changes) {
     const auto stop_of = [&](const std::string& boundaries) {
-        const RoomScene scene = request(std::string(k_tank) + "stop = { settled = true }\n" + boundaries).scene;
+        const RoomScene scene = request(k_tank + "stop = { settled = true }\n" + boundaries).scene;
         return grain_files(scene, "bed", 1).front().text;
     };
     const std::string grown = std::string(k_out) + k_free;
@@ -163,7 +153,7 @@ TEST_F(RoomFlow, grains_at_rest_end_no_run_whose_flow_still_changes) {
 /// From 1.5 m/s at 0.5 s to 0.5 m/s between 1 and 1.2 s, and to three litres per second at 2 s.
 TEST_F(RoomFlow, events_ramp_the_flow_through_a_boundary) {
     const auto ramp = [](const char* rest) { return std::string("[[event]]\ndo = \"ramp\"\nboundary = \"out\"\n") + rest + "\n"; };
-    const std::string tank = std::string(k_tank) + k_out + k_free;
+    const std::string tank = k_tank + k_out + k_free;
     const std::string first = ramp("speed_m_s = 0.5\nfrom_s = 1\nto_s = 1.2");
     const RoomRequest room = request(tank + first + ramp("discharge_m3_s = 0.003\nfrom_s = 1.2\nto_s = 2"));
     const auto& flow = std::get<ThroughFlow>(room.scene.boundaries[0].flow);
@@ -202,7 +192,7 @@ TEST_F(RoomFlow, a_laminar_room_has_no_turbulence_and_a_closed_one_a_reference_o
 
 /// Nine times as many steps of a flow that the Courant number bounds: 0.9 of a cell of 20 mm at 40 m/s, and 0.1 of one.
 TEST_F(RoomFlow, largest_courant_number_is_a_key) {
-    std::string text = std::string(k_tank) + "[[boundary]]\non = \"top\"\nname = \"jet\"\nflow = { inflow_m_s = 40 }\n" + k_free;
+    std::string text = k_tank + "[[boundary]]\non = \"top\"\nname = \"jet\"\nflow = { inflow_m_s = 40 }\n" + k_free;
     const RoomRequest shipped = request(text);
     EXPECT_EQ(shipped.scene.run.max_courant, 0.9);
     text.replace(text.find("end_s = 2\n"), 10, "end_s = 2\nmax_courant = 0.1\n");
@@ -219,8 +209,7 @@ TEST_F(RoomFlow, closures_have_the_solver_s_defaults_and_go_into_the_case) {
     RoomRequest room = request(k_tank);
     EXPECT_EQ(room.scene.closures.hindrance, coupling::ClosureSettings().hindrance);
     EXPECT_EQ(room.scene.kernel.gamma, coupling::KernelSettings().gamma);
-    room =
-        request(std::string(k_tank) + "[closures]\ndrag = \"gidaspow\"\nhindrance = \"none\"\nadded_mass = 0.0\n[kernel]\ngamma = 0.5\n");
+    room = request(k_tank + "[closures]\ndrag = \"gidaspow\"\nhindrance = \"none\"\nadded_mass = 0.0\n[kernel]\ngamma = 0.5\n");
     const std::string coupling = grain_files(room.scene, "", 1).front().text;
     EXPECT_THAT(coupling, ContainsRegex("drag +gidaspow;"));
     EXPECT_THAT(coupling, ContainsRegex("addedMass +0;"));
@@ -229,14 +218,14 @@ TEST_F(RoomFlow, closures_have_the_solver_s_defaults_and_go_into_the_case) {
 }
 
 TEST_F(RoomFlow, pressure_drops_are_recorded_at_their_two_places) {
-    const RoomRequest room = request(std::string(k_tank) + k_free +
+    const RoomRequest room = request(k_tank + k_free +
                                      "[[measure]]\nname = \"drop\"\nwhat = \"pressure_drop\"\nupstream_m = [0.1, 0, 0.05]\n"
                                      "downstream_m = [0.1, 0, 0.25]\ndensity_kg_m3 = 1000\n");
     EXPECT_THAT(file_of(room, "system/controlDict"), HasSubstr("((0.1 0 0.05) (0.1 0 0.25))"));
 }
 
 TEST_F(RoomFlow, prediction_counts_cells_and_steps_of_the_flow) {
-    const RoomRequest room = request(std::string(k_tank) + k_out + k_free);
+    const RoomRequest room = request(k_tank + k_out + k_free);
     const RoomPrediction found = predict(room.scene, room.pieces, room.mesh);
     EXPECT_NEAR(found.cells, 20.0 * 10.0 * 15.0, 0.05 * 3000.0);
     // Courant number 0.9 of 1.5 m/s in 20 mm: 12 ms; the longest step is 0.1 sqrt(d/g) = 2.86 ms.
@@ -246,7 +235,7 @@ TEST_F(RoomFlow, prediction_counts_cells_and_steps_of_the_flow) {
 }
 
 TEST_F(RoomFlow, warns_of_what_a_run_may_be_asked_in_spite_of) {
-    const std::string open = std::string(k_tank) + k_out + k_free;
+    const std::string open = k_tank + k_out + k_free;
     // The bore has 10 grains of 8 mm. Its radius of 40 mm has 1.3 kernels of 1.5 cells, as cells of 20 mm are larger than grains, and 5
     // kernels of 8 mm in cells of 5 mm. The wall of 10 mm is thinner than cells of 20 mm.
     EXPECT_THAT(warnings_of(request(open)), HasSubstr("riser is 0.01 m thin in cells of 0.02 m"));
@@ -277,7 +266,7 @@ struct Bad {
 class BadFlow : public RoomFlow, public ::testing::WithParamInterface<Bad> {};
 
 TEST_P(BadFlow, is_refused_with_what_value_rule_and_remedy) {
-    const std::string mistakes = mistakes_of(std::string(k_tank) + GetParam().text);
+    const std::string mistakes = mistakes_of(k_tank + GetParam().text);
     EXPECT_THAT(mistakes, HasSubstr(GetParam().what));
     EXPECT_THAT(mistakes, HasSubstr("room.toml:"));
 }

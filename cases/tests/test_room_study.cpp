@@ -19,6 +19,7 @@
 #include "cases/scenes/study_kind.hpp"
 #include "cases/study/contact_rules.hpp"
 #include "cases/sweep/room_sweep.hpp"
+#include "cases/testing/stone.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -28,21 +29,8 @@
 namespace cutterflow::cases {
 namespace {
 
-/// A material with its contacts, as studies have it.
-const std::string k_stone = R"([[material]]
-name = "stone"
-youngs_modulus_pa = 1e7
-[[contact]]
-pair = ["stone", "stone"]
-friction = 0.5
-restitution = 0.8
-[[contact]]
-pair = ["stone", "steel"]
-friction = 0.4
-restitution = 0.8
-)";
-
 namespace fs = std::filesystem;
+using test::k_stone;
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
@@ -55,6 +43,12 @@ protected:
         fs::create_directories(folder_);
     }
     void TearDown() override { fs::remove_all(folder_); }
+
+    /// pair.clump: two spheres of radius 1, their centres `apart`.
+    void write_pair(double apart) const {
+        const auto sphere = [](double x) { return fmt::format("[[sphere]]\nx_m = {:.1f}\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n", x); };
+        write(sphere(0.0) + sphere(apart), "pair.clump");
+    }
 
     fs::path write(const std::string& text, const std::string& name = "room.toml") const {
         write_file(folder_ / name, text);
@@ -392,10 +386,7 @@ TEST_F(RoomStudy, grains_may_be_clumps_and_begin_with_room_for_any_orientation) 
 
 /// Contacts are of a clump's spheres, which are smaller and more.
 TEST_F(RoomStudy, clumps_are_predicted_by_their_spheres) {
-    write(
-        "[[sphere]]\nx_m = 0.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n"
-        "[[sphere]]\nx_m = 1.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n",
-        "pair.clump");
+    write_pair(1.0);
     const std::string feed =
         "[[event]]\ndo = \"feed\"\ngrains = \"beads\"\nfrom_s = 1\nto_s = 2\nrate_kg_s = 0.05\n"
         "region = { box = { lower_m = [-0.01, -0.01, 0.13], upper_m = [0.01, 0.01, 0.15] } }\n";
@@ -420,10 +411,7 @@ TEST_F(RoomStudy, clumps_are_predicted_by_their_spheres) {
 
 /// The DEM would leave them waiting for ever.
 TEST_F(RoomStudy, clumps_that_reach_too_far_for_the_room_are_refused) {
-    write(
-        "[[sphere]]\nx_m = 0.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n"
-        "[[sphere]]\nx_m = 1.5\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n",
-        "pair.clump");
+    write_pair(1.5);
     const auto room = [](double side, double diameter) {
         return fmt::format(R"([scene]
 kind = "room"
@@ -455,10 +443,7 @@ end_s = 1
 }
 
 TEST_F(RoomStudy, an_opening_is_measured_by_the_length_of_clumps) {
-    write(
-        "[[sphere]]\nx_m = 0.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n"
-        "[[sphere]]\nx_m = 1.5\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n",
-        "pair.clump");
+    write_pair(1.5);
     const std::string shape = changed("[[grains]]\n", "[[grains]]\nshape = \"pair.clump\"\n");
     const RoomScene scene = read_room(write(shape));
     EXPECT_GT(scene.longest_grain(), 1.2 * scene.largest_grain());
